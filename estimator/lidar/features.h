@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "estimator/messages.h"
+
+namespace plumbline {
+
+struct FeaturePoint {
+  Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< [m], in B at the scan's reference time
+  float intensity = 0.0F;
+};
+
+/// What matching uses of one scan (thesis 5.12 and the selection rules of ch. 4).
+struct FeatureCloud {
+  std::vector<FeaturePoint> edges;
+  std::vector<FeaturePoint> planes;
+};
+
+/// Curvature-based extraction per ring with all rejection rules: taken neighbours, occlusion edges, grazing surfaces.
+/// @param scan             raw; gives ring, order and beam geometry
+/// @param points_in_body   the same points de-skewed, as deskew() returns them
+FeatureCloud extract_features(const LidarScan& scan, const std::vector<Eigen::Vector3f>& points_in_body,
+                              const Calibration& calibration);
+
+}  // namespace plumbline

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "estimator/estimator.h"
+#include "estimator/lidar/features.h"
+#include "estimator/solver/robust_solver.h"
+
+namespace plumbline {
+
+/// One set of settings for all scenarios; the reasons stand at the places of use.
+struct ScanMatcherConfig {
+  double coarse_voxel_m = 10.0;
+  double edge_resolution_m = 0.2;
+  double plane_resolution_m = 0.4;
+  double memory_path_m = 300.0;        ///< nothing older takes part in matching
+  double degeneracy_threshold = 0.0;   ///< on whitened J^T J; set from evidence
+  int max_iterations = 8;
+};
+
+/// Scan-to-map matching (thesis 5.3, eqs. 5.13-5.15): edge points to lines and planar points to planes of a voxel map.
+class ScanMatcher {
+ public:
+  ScanMatcher(const Calibration& calibration, const ScanMatcherConfig& config, bool remapping);
+  ScanMatcher(ScanMatcher&&) noexcept;
+  ScanMatcher& operator=(ScanMatcher&&) noexcept;
+  ~ScanMatcher();
+
+  /// Solves for world_from_body; starts at the prior's mean. With an empty map nothing is well-conditioned.
+  SolveResult match(const FeatureCloud& features_in_body, const PosePrior& world_from_body);
+
+  /// Merges a scan into the map at a pose and forgets what is older than memory_path_m.
+  /// @param path_m  distance travelled so far by the estimate
+  void insert(const FeatureCloud& features_in_body, const Pose& world_from_body, double path_m);
+
+  /// Everything ever inserted, down-sampled, in a fixed order; also what matching has forgotten.
+  std::vector<MapPoint> map() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace plumbline

@@ -1,0 +1,23 @@
+#include "estimator/solver/degeneracy.h"
+
+#include <Eigen/Eigenvalues>
+
+namespace plumbline {
+
+Matrix6d Spectrum::projector() const {
+  const auto kept = eigenvectors.rightCols(well_conditioned);
+  return kept * kept.transpose();
+}
+
+Spectrum analyse(const Matrix6d& information, double threshold) {
+  Spectrum spectrum;
+  if (!information.allFinite()) return spectrum;
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(information);
+  if (eigen.info() != Eigen::Success) return spectrum;
+  spectrum.eigenvalues = eigen.eigenvalues().cwiseMax(0.0);
+  spectrum.eigenvectors = eigen.eigenvectors();
+  for (int i = 0; i < 6; ++i) spectrum.well_conditioned += spectrum.eigenvalues[i] > threshold ? 1 : 0;
+  return spectrum;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "estimator/geometry/pose.h"
+#include "estimator/solver/degeneracy.h"
+
+/// The one solver of vision and scan matching: robust Gauss-Newton on a pose with six unknowns, bisquare weights
+/// (thesis eq. 4.11), optional prior rows (5.11, 5.17) and solution remapping (5.21, Algorithm 3).
+namespace plumbline {
+
+/// Stacked residual rows, whitened: divided by the standard deviation that sensor noise gives them.
+/// Rows added with one call belong to one feature and share one robust weight.
+class ResidualRows {
+ public:
+  void clear();
+  void reserve(int rows);
+  /// @param d_residual_d_pose  with respect to a right perturbation of the pose, [rotation; translation]
+  void add(double residual, const Vector6d& d_residual_d_pose);
+  /// Two rows of one feature.
+  void add(double residual_1, const Vector6d& jacobian_1, double residual_2, const Vector6d& jacobian_2);
+
+  int row_count() const { return static_cast<int>(residuals_.size()); }
+  int feature_count() const { return static_cast<int>(first_row_.size()); }
+  double residual(int row) const { return residuals_[static_cast<std::size_t>(row)]; }
+  const Vector6d& jacobian(int row) const { return jacobians_[static_cast<std::size_t>(row)]; }
+  int first_row(int feature) const { return first_row_[static_cast<std::size_t>(feature)]; }
+  int end_row(int feature) const;
+
+ private:
+  std::vector<double> residuals_;
+  std::vector<Vector6d> jacobians_;
+  std::vector<int> first_row_;
+};
+
+/// Fills `rows` (already cleared) at a pose. The same features must come in the same order for the same pose.
+using Linearizer = std::function<void(const Pose& pose, ResidualRows& rows)>;
+
+/// A guess with its uncertainty: covariance of a right perturbation of `mean`.
+struct PosePrior {
+  Pose mean;
+  Matrix6d covariance = Matrix6d::Identity();
+};
+
+struct SolverOptions {
+  int max_iterations = 10;
+  double rotation_tolerance = 1e-5;     ///< [rad]
+  double translation_tolerance = 1e-5;  ///< [m]
+  double degeneracy_threshold = 0.0;    ///< on the eigenvalues of the whitened J^T J
+  bool remapping = true;                ///< false: all six directions from the data, no projector and no prior rows
+  double scale_floor = 0.6745;          ///< least MAD of the whitened residuals; 0.6745 is that of unit noise
+  int min_features = 6;                 ///< fewer: nothing is well-conditioned
+  double min_inlier_share = 0.3;        ///< fewer: nothing is well-conditioned
+};
+
+struct SolveResult {
+  Pose pose;              ///< the guess where nothing could be solved
+  Spectrum spectrum;      ///< of the data at the first iteration
+  /// The data's own normal equations at `pose`: information * d = -gradient, robust weights included, prior excluded.
+  Matrix6d information = Matrix6d::Zero();
+  Vector6d gradient = Vector6d::Zero();
+  int features = 0;
+  int inliers = 0;             ///< with a weight above zero
+  std::vector<double> weights; ///< per feature, in [0, 1]
+  double scale = 0.0;          ///< MAD of the whitened residuals, floored
+  int iterations = 0;
+  bool converged = false;
+};
+
+/// Minimises the weighted rows (and the prior's) from a guess.
+/// With remapping on, each step moves only along the directions that the data determine at the first iteration; along
+/// the others the guess stays exactly. Never throws on bad data: the result then has no well-conditioned direction.
+SolveResult solve(const Pose& guess, const std::optional<PosePrior>& prior, const Linearizer& linearize,
+                  const SolverOptions& options);
+
+}  // namespace plumbline

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "estimator/estimator.h"
+#include "estimator/messages.h"
+#include "estimator/solver/robust_solver.h"
+
+namespace plumbline {
+
+/// One set of settings for all scenarios; the reasons stand at the places of use.
+struct VisionConfig {
+  int grid_rows = 5;
+  int grid_cols = 6;
+  int features_per_cell = 10;
+  double depth_max_age_s = 3.0;
+  double degeneracy_threshold = 0.0;  ///< on whitened J^T J; set from evidence
+};
+
+/// Key-frame visual odometry with depth from lidar, from triangulation, or none (thesis ch. 3 and 5.2): Harris corners,
+/// KLT tracks started from the prediction, and one robust 6-DOF problem with the IMU prediction as prior.
+///
+/// Call order for every image: process(), then start_keyframe() if wants_keyframe().
+class VisualOdometry {
+ public:
+  VisualOdometry(const Calibration& calibration, const VisionConfig& config, bool remapping);
+  VisualOdometry(VisualOdometry&&) noexcept;
+  VisualOdometry& operator=(VisualOdometry&&) noexcept;
+  ~VisualOdometry();
+
+  /// De-skewed lidar points for the depth map, registered with the estimate.
+  void add_depth_points(std::int64_t stamp_ns, const std::vector<Eigen::Vector3f>& points_in_world);
+
+  /// Tracks the features into a new image and solves for keyframe_from_body, the body's pose now in the body frame of
+  /// the key-frame (right perturbations, in B now).
+  /// @param prior  the IMU's prediction of keyframe_from_body, with its covariance
+  /// Without a key-frame, or with too few usable features, the result has no well-conditioned direction.
+  SolveResult process(const CameraFrame& frame, const PosePrior& keyframe_from_body);
+
+  /// True when the newest image should become the key-frame: none yet, too many features lost, or little overlap.
+  bool wants_keyframe() const;
+
+  /// Makes the newest image the key-frame: refills features per sub-region and gives them depth.
+  /// @param world_from_body  the estimate at the newest image, in the world of add_depth_points
+  void start_keyframe(const Pose& world_from_body);
+
+  std::vector<TrackedFeature> features() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace plumbline

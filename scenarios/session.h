@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+
+#include "scenarios/run_record.h"
+#include "scenarios/scenario.h"
+#include "sim/ray_scene.h"
+
+namespace plumbline {
+
+struct SessionOptions {
+  int threads = 2;  ///< 1: everything in turn; 2 and more: sensors ahead of the estimator. The bytes are the same.
+  /// Called now and then with the simulated share done, [0, 1].
+  std::function<void(double)> progress;
+};
+
+/// The world of a scenario, light level set. @throws InputError
+World make_world(const Scenario& scenario);
+
+/// Runs a scenario in lock-step: world, motion, sensors, estimator. A fault of the estimator ends the run and is kept
+/// in the record; bad input throws InputError before anything is simulated.
+RunRecord run_session(const Scenario& scenario, const World& world, const RayScene& rays, const SessionOptions& options);
+
+}  // namespace plumbline

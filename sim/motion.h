@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/trajectory.h"
+
+namespace plumbline {
+
+/// A swing of the body about one axis, added to the path's own attitude.
+struct Oscillation {
+  enum class Axis { kRoll, kPitch, kYaw };
+  Axis axis = Axis::kYaw;
+  double amplitude_deg = 0.0;
+  double frequency_hz = 1.0;
+};
+
+/// How the rig moves: a smooth path through waypoints at chosen speeds, or a TUM file.
+struct MotionConfig {
+  enum class Attitude {
+    kHeading,  ///< level, x along the path
+    kThrust    ///< as kHeading, then tilted as a rotor craft's thrust must be to give the path's acceleration
+  };
+  struct Waypoint {
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< of the body, world [m]
+    double speed_mps = 0.0;                              ///< from here to the next one; 0: `speed_mps` of the motion
+  };
+
+  std::filesystem::path tum_file;  ///< when set, everything below but speed_factor and rest_s is unused
+  std::vector<Waypoint> waypoints; ///< z is the body's height
+  double speed_mps = 1.4;
+  double speed_factor = 1.0;
+  double acceleration_mps2 = 1.0;  ///< along the path
+  double rest_s = 2.0;             ///< at the start
+  Attitude attitude = Attitude::kHeading;
+  double gait_frequency_hz = 0.0;  ///< steps per second; 0: no gait
+  double gait_height_m = 0.025;    ///< bob, half peak to peak
+  double gait_sway_m = 0.02;
+  double gait_roll_deg = 1.0;
+  double gait_pitch_deg = 1.0;
+  std::vector<Oscillation> oscillations;
+};
+
+/// @throws std::invalid_argument naming the field, or the file and line of a TUM file, that cannot be used.
+Trajectory make_trajectory(const MotionConfig& config, std::uint64_t seed);
+
+}  // namespace plumbline

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "sim/world.h"
+
+namespace plumbline {
+
+struct RayHit {
+  bool hit = false;
+  double range_m = 0.0;
+  Eigen::Vector3f normal_in_world = Eigen::Vector3f::Zero();  ///< unit, towards the side the ray came from
+  int geom = -1;
+};
+
+/// The world's copy for ray casting, on Embree. Rays see every geom type as MuJoCo's mj_ray does; the rig body's geoms
+/// and geoms that are fully transparent are left out, as mj_ray leaves them out.
+class RayScene {
+ public:
+  explicit RayScene(const World& world);
+  RayScene(RayScene&&) noexcept;
+  RayScene& operator=(RayScene&&) noexcept;
+  ~RayScene();
+
+  /// The first surface along a ray within [min_range_m, max_range_m]. Safe to call from several threads at once.
+  /// @param direction_in_world  unit length
+  RayHit cast(const Eigen::Vector3d& origin_in_world, const Eigen::Vector3d& direction_in_world, double min_range_m,
+              double max_range_m) const;
+
+  /// Distance from a point to the nearest surface, at most limit_m: the measure of a map's error.
+  double distance_to_surface(const Eigen::Vector3d& point_in_world, double limit_m) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace plumbline

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sim/world.h"
+
+namespace plumbline {
+
+/// A number that a scenario may set under world.parameters.
+struct SceneParameter {
+  std::string name;  ///< with its unit, `length_m`
+  double default_value = 0.0;
+  double min = 0.0;
+  double max = 0.0;
+  std::string meaning;
+};
+
+using SceneValues = std::map<std::string, double>;
+
+/// A procedural scene: the same values and seed give the same world, byte for byte.
+struct SceneInfo {
+  std::string name;
+  std::string summary;
+  std::vector<SceneParameter> parameters;
+  /// `values` holds every parameter, defaults filled in and ranges checked.
+  SceneDescription (*build)(const SceneValues& values, std::uint64_t world_seed) = nullptr;
+};
+
+const std::vector<SceneInfo>& scene_library();
+
+/// @throws std::invalid_argument naming the scene or parameter, what was found and what is allowed.
+SceneDescription build_scene(const std::string& name, const SceneValues& overrides, std::uint64_t world_seed);
+
+}  // namespace plumbline
