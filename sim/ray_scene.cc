@@ -149,15 +149,12 @@ void RayScene::Impl::centre_on_geometry() {
 void RayScene::Impl::attach_triangles() {
   if (triangles.triangles().empty()) return;
   const Geometry geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-  auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                             3 * sizeof(float), triangles.vertices().size()));
+  auto* vertex = static_cast<Eigen::Vector3f*>(rtcSetNewGeometryBuffer(
+      geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Eigen::Vector3f), triangles.vertices().size()));
   auto* index = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
       geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(TriangleSoup::Triangle), triangles.triangles().size()));
   errors.throw_if_failed();
-  for (const Eigen::Vector3d& in_world : triangles.vertices()) {
-    Eigen::Map<Eigen::Vector3f>(vertex) = (in_world - centre).cast<float>();
-    vertex += 3;
-  }
+  for (const Eigen::Vector3d& in_world : triangles.vertices()) *vertex++ = (in_world - centre).cast<float>();
   for (const TriangleSoup::Triangle& triangle : triangles.triangles()) index = std::copy(triangle.begin(), triangle.end(), index);
   rtcCommitGeometry(geometry.get());
   triangle_geometry = rtcAttachGeometry(scene.get(), geometry.get());
