@@ -29,7 +29,7 @@ struct SurfaceTextures {
 };
 
 /// The same seed, pattern and name give the same bytes. Both textures of kPlain are a faint, smooth variation without
-/// corners. Texture rows run upwards on walls.
+/// corners. Texture rows run down walls.
 SurfaceTextures make_textures(const Material& material, std::uint64_t world_seed);
 
 /// Textures for many materials, on all cores.
