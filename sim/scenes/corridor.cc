@@ -89,10 +89,11 @@ std::vector<double> slots(double wall_length, double spacing) {
   return middles;
 }
 
-// Closed doors, set back in their wall.
+// Closed doors, set back in their wall behind a threshold.
 void add_door(MjcfWriter& writer, const Wall& wall, const Opening& opening, RandomStream& stream) {
   writer.box(pick(stream, {"door_paint", "door_oak"}), {opening.begin_m, -kWallM, 0.0},
              {opening.end_m, -kWallM + 0.05, opening.height_m}, frame_of(wall));
+  writer.box("frame_paint", {opening.begin_m, -kWallM, -0.2}, {opening.end_m, 0.0, 0.0}, frame_of(wall));
   add_door_frame(writer, wall, opening);
 }
 
@@ -121,7 +122,7 @@ void add_wall_thing(MjcfWriter& writer, const Leg& leg, const Pose& world_from_w
     fixture.height_m = 0.9;
     fixture.width_m = 0.9;
     fixture.tall_m = 1.8;
-    fixture.depth_m = 0.3;
+    fixture.depth_m = 0.25;
   }
   add_fixture(writer, world_from_wall, fixture);
 }

@@ -96,7 +96,7 @@ void add_columns_and_beams(MjcfWriter& writer, const Plan& plan) {
   for (const double x : column_rows(plan)) {
     const bool round = row_number++ % 2 == 1;
     for (const double side : {-y, y}) {
-      const std::string& material = pick(stream, {"concrete_pale", "concrete_dark", "brick_red", "sign_yellow"});
+      const std::string material = pick(stream, {"concrete_pale", "concrete_dark", "brick_red", "sign_yellow"});
       if (round) {
         writer.cylinder(material, {x, side, 0.0}, {x, side, plan.height}, 0.35);
       } else {

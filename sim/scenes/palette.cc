@@ -83,15 +83,15 @@ const std::vector<std::string>& indoor_floor_materials() {
   return names;
 }
 
-const std::string& pick(RandomStream& stream, const std::vector<std::string>& names) {
+std::string pick(RandomStream& stream, const std::vector<std::string>& names) {
   return names[static_cast<std::size_t>(stream.integer(0, static_cast<int>(names.size()) - 1))];
 }
 
-const std::string& pick_other_than(const std::string& last, RandomStream& stream,
-                                   const std::vector<std::string>& names) {
-  const std::string* name = &pick(stream, names);
-  while (*name == last) name = &pick(stream, names);
-  return *name;
+std::string pick_other_than(const std::string& last, RandomStream& stream,
+                            const std::vector<std::string>& names) {
+  std::string name = pick(stream, names);
+  while (name == last) name = pick(stream, names);
+  return name;
 }
 
 }  // namespace plumbline

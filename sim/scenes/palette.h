@@ -21,8 +21,8 @@ const std::vector<std::string>& barrel_materials();
 const std::vector<std::string>& road_materials();
 const std::vector<std::string>& indoor_floor_materials();
 
-const std::string& pick(RandomStream& stream, const std::vector<std::string>& names);
+std::string pick(RandomStream& stream, const std::vector<std::string>& names);
 /// Never the one just used, so that neighbouring sections differ. `names` holds at least two.
-const std::string& pick_other_than(const std::string& last, RandomStream& stream, const std::vector<std::string>& names);
+std::string pick_other_than(const std::string& last, RandomStream& stream, const std::vector<std::string>& names);
 
 }  // namespace plumbline

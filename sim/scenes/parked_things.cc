@@ -21,7 +21,7 @@ void add_car(MjcfWriter& writer, RandomStream& stream, const Pose& frame) {
   const double half_length = stream.uniform(1.85, 2.1);
   const double half_width = stream.uniform(0.80, 0.88);
   const double roof = stream.uniform(1.35, 1.6);
-  const std::string& paint = pick(stream, vehicle_materials());
+  const std::string paint = pick(stream, vehicle_materials());
   writer.box(paint, {-half_width, -half_length, 0.25}, {half_width, half_length, 0.85}, frame);
   if (stream.uniform() < 0.5) {
     writer.box(paint, {-half_width + 0.1, -0.9, 0.85}, {half_width - 0.1, 1.3, roof}, frame);
@@ -34,7 +34,7 @@ void add_car(MjcfWriter& writer, RandomStream& stream, const Pose& frame) {
 
 void add_van(MjcfWriter& writer, RandomStream& stream, const Pose& frame) {
   const double roof = stream.uniform(1.85, 2.15);
-  const std::string& paint = pick(stream, vehicle_materials());
+  const std::string paint = pick(stream, vehicle_materials());
   writer.box(paint, {-0.95, -2.1, 0.3}, {0.95, 1.3, roof}, frame);
   writer.box(paint, {-0.95, 1.3, 0.3}, {0.95, 2.1, 1.1}, frame);
   add_axle(writer, frame, -1.3, 0.97);
@@ -71,7 +71,7 @@ void add_crates(MjcfWriter& writer, RandomStream& stream, const Pose& world_from
   for (int i = 0; i < count; ++i) {
     const Eigen::Vector3d half{stream.uniform(0.3, 0.5), stream.uniform(0.3, 0.5), stream.uniform(0.25, 0.45)};
     const Pose crate = world_from_stack * upright_frame({0.0, 0.0, bottom + half.z()}, stream.uniform(-0.4, 0.4));
-    const std::string& material = pick(stream, crate_materials());
+    const std::string material = pick(stream, crate_materials());
     bottom += 2.0 * half.z();
     if (bottom > height_limit_m) return;
     writer.box(material, -half, half, crate);

@@ -154,7 +154,7 @@ TEST(SceneLibrary, EverySceneCompilesForSeveralSeedsAndExtremeParameters) {
   }
 }
 
-// The renderer draws every triangle near by, and the estimator's figures were tuned for minutes, not hours.
+// The renderer draws every triangle near by, a hundred thousand times a scenario.
 TEST(SceneLibrary, DefaultScenesHaveAModerateNumberOfGeomsAndSeveralLooks) {
   for (const SceneInfo& scene : scene_library()) {
     const World world = make_world(scene.name, {}, 1);
