@@ -60,10 +60,10 @@ TEST(DepthMap, ReadsTheViewFromWhereTheCameraIs) {
   const std::vector<Vector3f> points = rings_on_plane({0, 0, 5}, {0, 0, -1}, -38, 38);
   DepthMap map(kCamera, DepthMapConfig{});
   map.add(0, points, std::nullopt);
-  map.look_from({Eigen::Quaterniond::Identity(), Vector3d(0.1, 0.0, 2.0)}, 0);
+  map.look_from({Eigen::Quaterniond::Identity(), Vector3d(0.1, 0.0, 0.5)}, 0);
   const auto depth = map.depth_along({0.05, 0.02, 1});
   ASSERT_TRUE(depth.has_value());
-  EXPECT_NEAR(1.0 / depth->mean, 3.0, 1e-3);
+  EXPECT_NEAR(1.0 / depth->mean, 4.5, 1e-3);
 }
 
 TEST(DepthMap, RefusesRaysBetweenForegroundAndBackground) {
