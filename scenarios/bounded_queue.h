@@ -4,11 +4,10 @@
 #include <deque>
 #include <exception>
 #include <mutex>
-#include <optional>
 
 namespace plumbline {
 
-/// A queue between one producer and one consumer thread. The producer waits while it is full; either side may leave at
+/// A queue of pointers between one producer and one consumer thread. The producer waits while it is full; either side may leave at
 /// any time without the other waiting for ever.
 template <typename T>
 class BoundedQueue {
@@ -33,15 +32,15 @@ class BoundedQueue {
     changed_.notify_all();
   }
 
-  /// Consumer: the next item, or nothing after the last one. @throws what the producer failed with
-  std::optional<T> pop() {
+  /// Consumer: the next item, or an empty T after the last one. @throws what the producer failed with
+  T pop() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return !items_.empty() || closed_; });
     if (items_.empty()) {
       if (failure_) std::rethrow_exception(failure_);
-      return std::nullopt;
+      return T();
     }
-    std::optional<T> item(std::move(items_.front()));
+    T item = std::move(items_.front());
     items_.pop_front();
     changed_.notify_all();
     return item;

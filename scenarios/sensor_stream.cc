@@ -45,17 +45,22 @@ class SensorStream {
     lidar_.noise_enabled = scenario.rig.lidar_noise;
   }
 
-  std::optional<SensorMessage> next() {
+  std::unique_ptr<SensorMessage> next() {
     const bool frame_first = frame_ns() <= scan_end_ns();
-    if (std::min(frame_ns(), scan_end_ns()) > end_ns_) return std::nullopt;
-    std::optional<SensorMessage> message;
+    const std::int64_t delivery_ns = std::min(frame_ns(), scan_end_ns());
+    if (delivery_ns > end_ns_) return nullptr;
+    const auto start = std::chrono::steady_clock::now();
+    auto message = std::make_unique<SensorMessage>();
+    message->delivery_ns = delivery_ns;
     if (frame_first) {
-      message = make_frame();
+      message->payload = make_frame();
       frame_ += scenario_.rig.decimation;
     } else {
-      message = make_scan();
+      message->payload = make_scan();
       scan_ += scenario_.rig.decimation;
     }
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+    message->wall_s = wall.count();
     return message;
   }
 
@@ -106,14 +111,14 @@ class ReadAhead {
     thread_.join();
   }
 
-  std::optional<TimedMessage> next() { return queue_.pop(); }
+  std::unique_ptr<SensorMessage> next() { return queue_.pop(); }
 
  private:
   void produce(const std::function<MessageSource()>& make) noexcept {
     try {
       const MessageSource source = make();
       while (auto message = source()) {
-        if (!queue_.push(std::move(*message))) return;
+        if (!queue_.push(std::move(message))) return;
       }
       queue_.close();
     } catch (...) {
@@ -121,16 +126,11 @@ class ReadAhead {
     }
   }
 
-  BoundedQueue<TimedMessage> queue_;
+  BoundedQueue<std::unique_ptr<SensorMessage>> queue_;
   std::thread thread_;
 };
 
 }  // namespace
-
-std::int64_t delivery_ns(const SensorMessage& message) {
-  if (const auto* frame = std::get_if<CameraFrame>(&message)) return frame->stamp_ns;
-  return std::get<LidarScan>(message).end_ns;
-}
 
 double light_factor_at(const std::vector<LightStep>& schedule, std::int64_t stamp_ns) {
   double factor = 1.0;
@@ -143,13 +143,7 @@ double light_factor_at(const std::vector<LightStep>& schedule, std::int64_t stam
 MessageSource make_source(const Scenario& scenario, const World& world, const RayScene& rays,
                           const Trajectory& world_from_body) {
   const auto stream = std::make_shared<SensorStream>(scenario, world, rays, world_from_body);
-  return [stream]() -> std::optional<TimedMessage> {
-    const auto start = std::chrono::steady_clock::now();
-    std::optional<SensorMessage> message = stream->next();
-    if (!message) return std::nullopt;
-    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-    return TimedMessage{std::move(*message), wall.count()};
-  };
+  return [stream] { return stream->next(); };
 }
 
 MessageSource make_read_ahead_source(const Scenario& scenario, const World& world, const RayScene& rays,

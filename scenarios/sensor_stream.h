@@ -2,7 +2,7 @@
 
 #include <cstdint>
 #include <functional>
-#include <optional>
+#include <memory>
 #include <variant>
 
 #include "estimator/messages.h"
@@ -13,21 +13,17 @@
 namespace plumbline {
 
 /// A message of the sensors that are costly to simulate; the IMU is not among them.
-using SensorMessage = std::variant<CameraFrame, LidarScan>;
-
-/// When a driver hands the message over: an image at its stamp, a scan at its end.
-std::int64_t delivery_ns(const SensorMessage& message);
+struct SensorMessage {
+  std::variant<CameraFrame, LidarScan> payload;
+  std::int64_t delivery_ns = 0;  ///< when a driver hands it over: an image at its stamp, a scan at its end
+  double wall_s = 0.0;           ///< that making it took
+};
 
 /// The factor on all lamps at a time: of the latest step that has begun, 1 before the first.
 double light_factor_at(const std::vector<LightStep>& schedule, std::int64_t stamp_ns);
 
-struct TimedMessage {
-  SensorMessage message;
-  double wall_s = 0.0;  ///< that making it took
-};
-
-/// Gives the next message at every call; nothing after the motion's end.
-using MessageSource = std::function<std::optional<TimedMessage>()>;
+/// Gives the next message at every call; null after the motion's end.
+using MessageSource = std::function<std::unique_ptr<SensorMessage>()>;
 
 /// Camera frames and lidar scans of a run, in order of delivery; at one time the frame comes first. Scans stand back to
 /// back from time 0; frames are half a period off, so that they do not fall on the scans' ends. With a decimation of n

@@ -27,8 +27,8 @@ class Delivery {
   Delivery(MessageSource source, Recorder& recorder) : source_(std::move(source)), recorder_(recorder) { advance(); }
 
   void up_to(std::int64_t end_ns) {
-    while (next_ && delivery_ns(next_->message) < end_ns && !recorder_.faulted()) {
-      std::visit([&](const auto& message) { recorder_.deliver(message); }, next_->message);
+    while (next_ && next_->delivery_ns < end_ns && !recorder_.faulted()) {
+      std::visit([&](const auto& message) { recorder_.deliver(message); }, next_->payload);
       advance();
     }
   }
@@ -41,7 +41,7 @@ class Delivery {
 
   MessageSource source_;
   Recorder& recorder_;
-  std::optional<TimedMessage> next_;
+  std::unique_ptr<SensorMessage> next_;
 };
 
 void run(const Scenario& scenario, const Trajectory& world_from_body, MessageSource source, const SessionOptions& options,
