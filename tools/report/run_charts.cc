@@ -83,9 +83,10 @@ LineChart component_chart(const std::vector<double>& times, const std::vector<Ei
     chart.series.push_back({"total", "estimate", times, {}});
     for (const auto& value : values) chart.series.back().y.push_back(value.norm());
   }
-  for (int axis = 0; axis < 3; ++axis) {
-    chart.series.push_back({names[static_cast<std::size_t>(axis)], "c" + std::to_string(axis), times, {}});
-    for (const auto& value : values) chart.series.back().y.push_back(value[axis]);
+  static constexpr std::array kClasses = {"c0", "c1", "c2"};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    chart.series.push_back({names[axis], kClasses[axis], times, {}});
+    for (const auto& value : values) chart.series.back().y.push_back(value[static_cast<Eigen::Index>(axis)]);
   }
   return chart;
 }
@@ -157,7 +158,7 @@ std::string timing_chart(const RunFigures& figures) {
   std::vector<Bar> bars;
   for (const auto& [module, timing] : figures.modules) {
     if (!timing.mean_ms || !timing.p95_ms) continue;
-    bars.push_back({module_key(module), *timing.mean_ms, *timing.p95_ms,
+    bars.push_back({std::string(to_string(module)), *timing.mean_ms, *timing.p95_ms,
                     readable_text(*timing.mean_ms) + " ms, p95 " + readable_text(*timing.p95_ms) + " ms"});
   }
   return bar_chart(bars);
