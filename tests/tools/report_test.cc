@@ -1,6 +1,7 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <limits>
@@ -13,15 +14,25 @@
 namespace plumbline {
 namespace {
 
-using ::testing::HasSubstr;
-using ::testing::Not;
-
 std::string page_of(const RunRecord& record, const Scenario& scenario) {
   RunFigures figures = run_figures(record, [](const Eigen::Vector3d&) { return 0.02; });
   figures.real_time_factor = 1.8;
   const Verdict verdict = judge(scenario, record, figures);
   const Provenance provenance = make_provenance(scenario, 2);
   return report_html({scenario, record, figures, verdict, provenance});
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// The page without its pictures, whose base64 may spell anything.
+std::string without_pictures(const std::string& page) {
+  std::string text;
+  std::size_t at = 0;
+  for (std::size_t found = page.find("base64,"); found != std::string::npos; found = page.find("base64,", at)) {
+    text.append(page, at, found - at);
+    at = page.find('"', found);
+  }
+  return text.append(page, at);
 }
 
 Scenario a_scenario() {
@@ -37,9 +48,9 @@ TEST(Report, ShowsEverySectionOfARun) {
   const std::string page = page_of(testing::synthetic_record(), a_scenario());
   for (const char* title : {"Path and map", "Error over time", "Degeneracy", "Scan matching&#39;s corrections", "Camera",
                             "Time and messages", "All figures", "Provenance"}) {
-    EXPECT_THAT(page, HasSubstr(title));
+    EXPECT_TRUE(contains(page, title)) << title;
   }
-  EXPECT_THAT(page, HasSubstr("drift_percent"));
+  EXPECT_TRUE(contains(page, "drift_percent"));
   EXPECT_LT(page.size(), 3'000'000U);
   // For looking at: PLUMBLINE_REPORT_TO=/tmp/report.html build/release/tests/tools/tools_test
   if (const char* path = std::getenv("PLUMBLINE_REPORT_TO")) std::ofstream(path) << page;
@@ -48,7 +59,7 @@ TEST(Report, ShowsEverySectionOfARun) {
 TEST(Report, NeedsNothingFromOutside) {
   const std::string page = page_of(testing::synthetic_record(), a_scenario());
   for (const char* outside : {"http:", "https:", "src=", "@import", "url(", "<script", "<link"}) {
-    EXPECT_THAT(page, Not(HasSubstr(outside)));
+    EXPECT_FALSE(contains(page, outside)) << outside;
   }
 }
 
@@ -57,17 +68,17 @@ TEST(Report, NumbersThatAreNotFiniteDrawNothing) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t i = 3000; i < record.estimate.size(); ++i) record.estimate[i].pose.translation.x() = nan;
   record.map.push_back({{std::numeric_limits<float>::quiet_NaN(), 0.0F, 0.0F}, 0.0F});
-  const std::string page = page_of(record, a_scenario());
-  EXPECT_THAT(page, Not(HasSubstr("nan")));
-  EXPECT_THAT(page, Not(HasSubstr("inf\"")));
+  const std::string page = without_pictures(page_of(record, a_scenario()));
+  EXPECT_FALSE(contains(page, "nan"));
+  EXPECT_FALSE(contains(page, "inf\""));
 }
 
 TEST(Report, StandsForARunThatEndedBeforeItBegan) {
   RunRecord record;
   record.fault = "out of memory";
   const std::string page = page_of(record, a_scenario());
-  EXPECT_THAT(page, HasSubstr("out of memory"));
-  EXPECT_THAT(page, HasSubstr("badge error"));
+  EXPECT_TRUE(contains(page, "out of memory"));
+  EXPECT_TRUE(contains(page, "badge error"));
 }
 
 TEST(Report, EscapesEverythingItWasGiven) {
@@ -76,10 +87,10 @@ TEST(Report, EscapesEverythingItWasGiven) {
   record.messages[Module::kLidar].dropped["<b>\"reason\"</b>"] = 1;
   Scenario scenario = a_scenario();
   scenario.name = "<i>name</i>";
-  scenario.resolved_yaml = "</pre><script>";
+  scenario.resolved_yaml = "</pre><em>";
   const std::string page = page_of(record, scenario);
-  for (const char* raw : {"<script", "<i>name", "</pre><", "<b>\""}) EXPECT_THAT(page, Not(HasSubstr(raw)));
-  EXPECT_THAT(page, HasSubstr("&lt;script&gt;alert(1)"));
+  for (const char* raw : {"<script", "<i>name", "<em>", "<b>\"reason"}) EXPECT_FALSE(contains(page, raw)) << raw;
+  EXPECT_TRUE(contains(page, "&lt;script&gt;alert(1)"));
 }
 
 TEST(Markup, EscapesForElementsAndAttributes) {
@@ -107,14 +118,14 @@ TEST(Chart, ThinningKeepsExtremesAndBreaks) {
   series.y[70'000] = std::numeric_limits<double>::quiet_NaN();
   const ChartSeries thin = thinned(series, 1500);
   EXPECT_LE(thin.x.size(), 1500U);
-  EXPECT_EQ(*std::max_element(thin.y.begin(), thin.y.begin() + 600), 9.0);
+  EXPECT_EQ(*std::max_element(thin.y.begin(), thin.y.begin() + 300), 9.0);
   EXPECT_EQ(std::count_if(thin.y.begin(), thin.y.end(), [](double y) { return std::isnan(y); }), 1);
 }
 
 TEST(Chart, AnEmptyChartIsStillAChart) {
   LineChart chart;
   chart.caption = "Nothing <yet>";
-  EXPECT_THAT(line_chart(chart), HasSubstr("Nothing &lt;yet&gt;"));
+  EXPECT_TRUE(contains(line_chart(chart), "Nothing &lt;yet&gt;"));
 }
 
 }  // namespace

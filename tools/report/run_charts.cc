@@ -76,9 +76,12 @@ std::string correction_chart(const std::vector<ModuleHealth>& rows, const RunRec
 }
 
 /// Three components and, when asked for, their norm.
-LineChart component_chart(const std::vector<double>& times, const std::vector<Eigen::Vector3d>& values,
-                          const std::array<std::string, 3>& names, bool with_norm) {
+LineChart component_chart(std::string caption, std::string unit, const std::vector<double>& times,
+                          const std::vector<Eigen::Vector3d>& values, const std::array<const char*, 3>& names,
+                          bool with_norm) {
   LineChart chart;
+  chart.caption = std::move(caption);
+  chart.unit = std::move(unit);
   if (with_norm) {
     chart.series.push_back({"total", "estimate", times, {}});
     for (const auto& value : values) chart.series.back().y.push_back(value.norm());
@@ -103,14 +106,9 @@ std::string error_charts(const RunRecord& record, const TrajectoryFigures& figur
     attitude_deg.emplace_back(kDegrees * error.head<3>());
     position.emplace_back(error.tail<3>());
   }
-  LineChart position_chart = component_chart(times, position, {"forward", "left", "up"}, true);
-  position_chart.caption = "Position error";
-  position_chart.unit = "m";
-  position_chart.x = time_range(record);
-  LineChart attitude_chart = component_chart(times, attitude_deg, {"roll", "pitch", "yaw"}, false);
-  attitude_chart.caption = "Attitude error";
-  attitude_chart.unit = "deg";
-  attitude_chart.x = time_range(record);
+  LineChart position_chart = component_chart("Position error", "m", times, position, {"forward", "left", "up"}, true);
+  LineChart attitude_chart = component_chart("Attitude error", "deg", times, attitude_deg, {"roll", "pitch", "yaw"}, false);
+  position_chart.x = attitude_chart.x = time_range(record);
   return line_chart(position_chart) + line_chart(attitude_chart);
 }
 
