@@ -87,6 +87,9 @@ void check_finite(const mjModel& model) {
     }
   }
   if (!all_finite(model.mesh_vert, 3 * model.nmeshvert)) throw std::invalid_argument("a mesh has a vertex that is not finite");
+  if (!all_finite(model.hfield_data, model.nhfielddata) || !all_finite(model.hfield_size, 4 * model.nhfield)) {
+    throw std::invalid_argument("a height field is not finite");
+  }
   if (!all_finite(model.body_pos, 3 * model.nbody) || !all_finite(model.body_quat, 4 * model.nbody)) {
     throw std::invalid_argument("a body has a pose that is not finite");
   }
