@@ -167,7 +167,7 @@ void add_lamps(MjcfWriter& writer, const Leg& leg, RandomStream& stream) {
     const double y = stream.uniform(-0.2, 0.2);
     writer.box("lamp_housing", {along - 0.5, y - 0.1, leg.height - 0.06}, {along + 0.5, y + 0.1, leg.height},
                leg.world_from_leg);
-    writer.lamp({leg.world_from_leg * Eigen::Vector3d(along, y, leg.height - 0.2), stream.uniform(120.0, 200.0), 11.0});
+    writer.lamp({leg.world_from_leg * Eigen::Vector3d(along, y, leg.height - 0.35), stream.uniform(120.0, 200.0), 11.0});
   }
 }
 

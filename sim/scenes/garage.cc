@@ -145,8 +145,8 @@ void add_lamps(MjcfWriter& writer, const GaragePlan& plan, int hall, RandomStrea
   for (const double lane : {-GaragePlan::kLaneY, GaragePlan::kLaneY}) {
     for (int i = 0; i < count; ++i) {
       const Eigen::Vector3d at{plan.west_of(hall) + plan.length * (i + 0.5) / count + stream.uniform(-0.5, 0.5),
-                               lane + stream.uniform(-0.3, 0.3), plan.ceiling - GaragePlan::kBeamDepthM - 0.15};
-      writer.box("lamp_housing", at + Eigen::Vector3d(-0.6, -0.1, 0.1), at + Eigen::Vector3d(0.6, 0.1, 0.15));
+                               lane + stream.uniform(-0.3, 0.3), plan.ceiling - GaragePlan::kBeamDepthM - 0.25};
+      writer.box("lamp_housing", at + Eigen::Vector3d(-0.6, -0.1, 0.15), at + Eigen::Vector3d(0.6, 0.1, 0.2));
       writer.lamp({at, stream.uniform(200.0, 300.0), 14.0});
     }
   }

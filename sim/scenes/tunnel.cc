@@ -129,7 +129,7 @@ void add_lamps(MjcfWriter& writer, const Plan& plan) {
   for (int i = 0; i < count; ++i) {
     const double x = (i + 0.5 - count / 2.0) * kSpacing + stream.uniform(-0.8, 0.8);
     const double y = stream.uniform(-0.5, 0.5);
-    writer.lamp({{x, y, plan.height - 0.4}, stream.uniform(200.0, 320.0), 14.0});
+    writer.lamp({{x, y, plan.height - 0.7}, stream.uniform(200.0, 320.0), 14.0});
   }
 }
 
