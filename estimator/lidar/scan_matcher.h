@@ -13,14 +13,17 @@ namespace plumbline {
 struct ScanMatcherConfig {
   double coarse_voxel_m = 10.0;
   double edge_resolution_m = 0.1;
-  double plane_resolution_m = 0.3;
+  double plane_resolution_m = 0.4;
   double memory_path_m = 300.0;        ///< nothing older takes part in matching
-  double degeneracy_threshold = 0.0;   ///< on whitened J^T J; set from evidence
+  /// On whitened J^T J. Measured in worlds of known form (16 rings, 1.2 cm): the weakest eigenvalue stays below 110 in a
+  /// smooth tunnel, 250 on a bare plain and 730 in a round tube; it never fell below 9,600 in a corridor with a pair of
+  /// door frames every 10 m, 145,000 with one every 5 m, 240,000 in a room. This is the geometric middle of the gap.
+  double degeneracy_threshold = 3000.0;
   int max_iterations = 8;
   int plane_budget = 1200;             ///< planar features matched of one scan
   int edge_budget = 300;               ///< edge features matched of one scan
   int least_features = 50;             ///< fewer matched: nothing is well-conditioned
-  double largest_plane_tilt = 0.04;    ///< [rad] one sigma of a fitted plane's normal
+  double largest_plane_tilt = 0.03;    ///< [rad] one sigma of a fitted plane's normal
   double largest_edge_tilt = 0.05;     ///< [rad] one sigma of a fitted line's direction
 };
 
