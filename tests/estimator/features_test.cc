@@ -78,12 +78,14 @@ TEST(Features, PlanesLieOnTheSurfacesAndFaceTheSensor) {
   const FeatureCloud cloud = features_at(room, pose);
   EXPECT_GT(cloud.planes.size(), 1200U);
   int tilted = 0;
+  int off = 0;
   for (const FeaturePoint& p : cloud.planes) {
-    EXPECT_LT(room.distance(pose * p.position.cast<double>()), 0.06) << p.position.transpose();
+    off += room.distance(pose * p.position.cast<double>()) > 4.0 * kRangeSigma ? 1 : 0;
     EXPECT_LT(p.normal.dot(p.position), 0.0F);
     EXPECT_NEAR(p.normal.norm(), 1.0F, 1e-4F);
     tilted += p.normal.cwiseAbs().maxCoeff() < 0.9F ? 1 : 0;  // all true normals are axes
   }
+  EXPECT_LT(off, static_cast<int>(cloud.planes.size()) / 100) << "beside creases, where a mean rounds the corner off";
   EXPECT_LT(tilted, static_cast<int>(cloud.planes.size()) / 20);
 }
 
