@@ -10,6 +10,7 @@ namespace plumbline {
 struct FeaturePoint {
   Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< [m], in B at the scan's reference time
   float intensity = 0.0F;
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< planes: unit, in B, towards the sensor; edges: zero
 };
 
 /// What matching uses of one scan (thesis 5.12 and the selection rules of ch. 4).
@@ -19,6 +20,7 @@ struct FeatureCloud {
 };
 
 /// Curvature-based extraction per ring with all rejection rules: taken neighbours, occlusion edges, grazing surfaces.
+/// Planes are dense but evenly spread: the mean of the planar points of each small cell of space.
 /// @param scan             raw; gives ring, order and beam geometry
 /// @param points_in_body   the same points de-skewed, as deskew() returns them
 FeatureCloud extract_features(const LidarScan& scan, const std::vector<Eigen::Vector3f>& points_in_body,

@@ -17,6 +17,11 @@ struct ScanMatcherConfig {
   double memory_path_m = 300.0;        ///< nothing older takes part in matching
   double degeneracy_threshold = 0.0;   ///< on whitened J^T J; set from evidence
   int max_iterations = 8;
+  int plane_budget = 1200;             ///< planar features matched of one scan
+  int edge_budget = 300;               ///< edge features matched of one scan
+  int least_features = 50;             ///< fewer matched: nothing is well-conditioned
+  double largest_plane_tilt = 0.02;    ///< [rad] one sigma of a fitted plane's normal
+  double largest_edge_tilt = 0.05;     ///< [rad] one sigma of a fitted line's direction
 };
 
 /// Scan-to-map matching (thesis 5.3, eqs. 5.13-5.15): edge points to lines and planar points to planes of a voxel map.

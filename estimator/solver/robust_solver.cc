@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimator/geometry/so3.h"
+
 namespace plumbline {
 
 void ResidualRows::clear() {
@@ -65,6 +67,14 @@ double feature_residual(const ResidualRows& rows, int feature) {
   return std::sqrt(sum / (rows.end_row(feature) - rows.first_row(feature)));
 }
 
+/// Sorting for the median is undefined on NaN, so this is asked first.
+bool all_finite(const ResidualRows& rows) {
+  for (int r = 0; r < rows.row_count(); ++r) {
+    if (!std::isfinite(rows.residual(r)) || !rows.jacobian(r).allFinite()) return false;
+  }
+  return true;
+}
+
 double median_of(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -96,74 +106,119 @@ void bisquare_weights(const ResidualRows& rows, double scale, std::vector<double
   }
 }
 
-/// The step that minimises data and prior rows within the well-conditioned directions, thesis 5.20-5.21.
+/// Seen from the guess, pose = guess.retract(x): how the pose's own perturbation moves with x.
+Matrix6d d_perturbation_d_correction(const Vector6d& correction) {
+  Matrix6d d = Matrix6d::Zero();
+  d.topLeftCorner<3, 3>() = right_jacobian_so3(correction.head<3>());
+  d.bottomRightCorner<3, 3>() = exp_so3(correction.head<3>()).conjugate().toRotationMatrix();
+  return d;
+}
+
+/// The step of the correction x that minimises data and prior rows within the well-conditioned directions, thesis
+/// 5.20-5.21. All steps are taken in the guess's own frame, in which the directions were found: steps in the frame of the
+/// moving pose would turn with it, and so leave the well-conditioned subspace.
 Vector6d remapped_step(const NormalEquations& data, const std::optional<PosePrior>& prior, const Pose& pose,
-                       const Spectrum& spectrum) {
+                       const Vector6d& correction, const Spectrum& spectrum) {
   NormalEquations all = data;
   if (prior) {
+    // The prior's mean need not be the guess; its residual's Jacobian is that of log() on the rotation.
+    const Vector6d error = prior->mean.local(pose);
+    Matrix6d d_error = Matrix6d::Zero();
+    d_error.topLeftCorner<3, 3>() = right_jacobian_so3(error.head<3>()).inverse();
+    d_error.bottomRightCorner<3, 3>() = exp_so3(error.head<3>()).toRotationMatrix();
     const Matrix6d prior_information = prior->covariance.inverse();
-    all.information += prior_information;
-    all.gradient += prior_information * prior->mean.local(pose);
+    all.information += d_error.transpose() * prior_information * d_error;
+    all.gradient += d_error.transpose() * (prior_information * error);
   }
   const int n = spectrum.well_conditioned;
   const Eigen::MatrixXd basis = spectrum.eigenvectors.rightCols(n);
-  const Eigen::MatrixXd reduced = basis.transpose() * all.information * basis;
-  return -basis * reduced.ldlt().solve(basis.transpose() * all.gradient);
+  const Eigen::MatrixXd moves = d_perturbation_d_correction(correction) * basis;
+  const Eigen::MatrixXd reduced = moves.transpose() * all.information * moves;
+  return -basis * reduced.ldlt().solve(moves.transpose() * all.gradient);
 }
+
+/// One solve: what the data say at a pose, and the loop that moves it.
+class RobustSolve {
+ public:
+  RobustSolve(const Pose& guess, const std::optional<PosePrior>& prior, const Linearizer& linearize,
+              const SolverOptions& options)
+      : guess_(guess), prior_(prior), linearize_(linearize), options_(options) {}
+
+  SolveResult run() {
+    result_.pose = guess_;
+    for (result_.iterations = 0; result_.iterations < options_.max_iterations && !result_.converged;
+         ++result_.iterations) {
+      relinearize();
+      if (result_.iterations == 0) analyse_data();
+      if (!usable() || !step()) result_.spectrum.well_conditioned = 0;
+      if (result_.spectrum.well_conditioned == 0) break;
+    }
+    if (result_.spectrum.well_conditioned == 0) {
+      result_.pose = guess_;
+      result_.converged = false;
+    } else {
+      relinearize();
+    }
+    result_.information = data_.information;
+    result_.gradient = data_.gradient;
+    return result_;
+  }
+
+ private:
+  void relinearize() {
+    rows_.clear();
+    linearize_(result_.pose, rows_);
+    result_.features = rows_.feature_count();
+    data_ = {};
+    result_.inliers = 0;
+    result_.weights.assign(static_cast<std::size_t>(result_.features), 0.0);
+    if (!all_finite(rows_)) return;
+    result_.scale = robust_scale(rows_, options_.scale_floor, scratch_);
+    bisquare_weights(rows_, result_.scale, result_.weights);
+    result_.inliers =
+        static_cast<int>(std::count_if(result_.weights.begin(), result_.weights.end(), [](double w) { return w > 0.0; }));
+    data_ = accumulate(rows_, result_.weights);
+  }
+
+  void analyse_data() {
+    result_.spectrum = analyse(data_.information, options_.degeneracy_threshold);
+    // Forced 6-DOF trusts all six directions as long as there is anything to solve them from.
+    if (!options_.remapping && data_.information.allFinite()) result_.spectrum.well_conditioned = 6;
+  }
+
+  bool usable() const {
+    return result_.features >= options_.min_features && result_.inliers >= options_.min_features &&
+           result_.inliers >= options_.min_inlier_share * result_.features;
+  }
+
+  bool step() {
+    if (result_.spectrum.well_conditioned == 0) return false;
+    const Vector6d step = remapped_step(data_, options_.remapping ? prior_ : std::nullopt, result_.pose, correction_,
+                                        result_.spectrum);
+    if (!step.allFinite()) return false;
+    correction_ += step;
+    result_.pose = guess_.retract(correction_);
+    result_.converged =
+        step.head<3>().norm() < options_.rotation_tolerance && step.tail<3>().norm() < options_.translation_tolerance;
+    return true;
+  }
+
+  const Pose& guess_;
+  const std::optional<PosePrior>& prior_;
+  const Linearizer& linearize_;
+  const SolverOptions& options_;
+  SolveResult result_;
+  ResidualRows rows_;
+  std::vector<double> scratch_;
+  NormalEquations data_;
+  Vector6d correction_ = Vector6d::Zero();
+};
 
 }  // namespace
 
 SolveResult solve(const Pose& guess, const std::optional<PosePrior>& prior, const Linearizer& linearize,
                   const SolverOptions& options) {
-  SolveResult result;
-  result.pose = guess;
-  ResidualRows rows;
-  std::vector<double> scratch;
-  NormalEquations data;
-  const auto relinearize = [&](const Pose& pose) {
-    rows.clear();
-    linearize(pose, rows);
-    result.features = rows.feature_count();
-    result.scale = robust_scale(rows, options.scale_floor, scratch);
-    bisquare_weights(rows, result.scale, result.weights);
-    result.inliers =
-        static_cast<int>(std::count_if(result.weights.begin(), result.weights.end(), [](double w) { return w > 0.0; }));
-    data = accumulate(rows, result.weights);
-  };
-
-  for (result.iterations = 0; result.iterations < options.max_iterations; ++result.iterations) {
-    relinearize(result.pose);
-    if (result.iterations == 0) {
-      result.spectrum = analyse(data.information, options.degeneracy_threshold);
-      // Forced 6-DOF trusts all six directions as long as there is anything to solve them from.
-      if (!options.remapping && data.information.allFinite()) result.spectrum.well_conditioned = 6;
-    }
-    if (result.features < options.min_features || result.inliers < options.min_features ||
-        result.inliers < options.min_inlier_share * result.features) {
-      result.spectrum.well_conditioned = 0;
-    }
-    if (result.spectrum.well_conditioned == 0) break;
-    const Vector6d step =
-        remapped_step(data, options.remapping ? prior : std::nullopt, result.pose, result.spectrum);
-    if (!step.allFinite()) {
-      result.spectrum.well_conditioned = 0;
-      break;
-    }
-    result.pose = result.pose.retract(step);
-    if (step.head<3>().norm() < options.rotation_tolerance && step.tail<3>().norm() < options.translation_tolerance) {
-      result.converged = true;
-      ++result.iterations;
-      break;
-    }
-  }
-  if (result.spectrum.well_conditioned == 0) {
-    result.pose = guess;
-  } else {
-    relinearize(result.pose);
-  }
-  result.information = data.information;
-  result.gradient = data.gradient;
-  return result;
+  return RobustSolve(guess, prior, linearize, options).run();
 }
 
 }  // namespace plumbline

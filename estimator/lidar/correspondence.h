@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "estimator/lidar/point_tree.h"
+#include "estimator/solver/robust_solver.h"
+
+/// From map points around a feature to the line or plane that it should lie on, and the rows of that constraint.
+namespace plumbline {
+
+/// The plane { x : normal . x = offset } in W.
+struct MapPlane {
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+  double offset = 0.0;
+};
+
+/// A line in W by a point and two unit vectors across it.
+struct MapLine {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  Eigen::Vector3d across_1 = Eigen::Vector3d::UnitX();
+  Eigen::Vector3d across_2 = Eigen::Vector3d::UnitY();
+};
+
+/// What the eigen test of the neighbours' scatter asks for (thesis 5.3: one small and two large eigenvalues make a plane,
+/// one large and two small a line).
+struct FitLimits {
+  int least_neighbours = 5;
+  double ratio = 9.0;             ///< of scatter eigenvalues, "much larger"
+  double largest_residual_m = 0.08;
+  double least_spread_m = 0.12;   ///< standard deviation along each large direction
+  double map_sigma_m = 0.006;     ///< noise of a map point, at least
+  double largest_tilt_sigma = 0.03;  ///< [rad] of the fitted normal or direction
+};
+
+std::optional<MapPlane> fit_plane(const NearestSamples& neighbours, const FitLimits& limits);
+std::optional<MapLine> fit_line(const NearestSamples& neighbours, const FitLimits& limits);
+
+/// Distance to the plane (5.15), signed so that it is smooth at zero, over sigma.
+void add_plane_row(const Eigen::Vector3d& point_in_body, const MapPlane& plane, const Pose& world_from_body,
+                   double sigma_m, ResidualRows& rows);
+
+/// Offset from the line (5.14) as its two components across the line, over sigma: their norm has no derivative at zero.
+void add_line_rows(const Eigen::Vector3d& point_in_body, const MapLine& line, const Pose& world_from_body,
+                   double sigma_m, ResidualRows& rows);
+
+}  // namespace plumbline

@@ -1,0 +1,262 @@
+#include "estimator/lidar/features.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+
+#include "estimator/lidar/facing_side.h"
+#include "estimator/lidar/flat_index.h"
+#include "estimator/lidar/ring_table.h"
+
+namespace plumbline {
+namespace {
+
+// Half the window of (5.12). Ten returns, as LOAM uses, span a few centimetres near the sensor and measure range noise
+// there, not shape; so the window holds at least this length of surface, within a least and a largest number of returns.
+constexpr float kHalfWindow_m = 0.25F;
+constexpr int kLeastHalfWindow = 5;
+constexpr int kLargestHalfWindow = 40;
+
+// An edge must deviate by this share of its range (thesis: 5e-3; less suffices since noise has its own term) and by this
+// many standard deviations of what range noise does to the deviation: of 30,000 returns on smooth walls, 0.2 exceed 4.5.
+constexpr float kEdgeCurvature = 4e-3F;
+constexpr float kEdgeSigmas = 4.5F;
+// A planar point may deviate by this much.
+constexpr float kPlaneCurvature = 1.5e-3F;
+constexpr float kPlaneSigmas = 2.5F;
+
+constexpr float kGrazing = 0.1736F;            // sin(10 deg), thesis 4.1: beam to surface
+constexpr float kSilhouetteGrazing = 0.3420F;  // sin(20 deg): a run that ends by turning away has no edge at its end
+constexpr int kSectors = 4;
+constexpr int kEdgesPerSector = 5;
+constexpr double kPlaneSpacing_m = 0.25;  // one planar feature a cell of this size and side
+// Points across two rings belong to one surface if they are no further apart than this share of the range, plus a little.
+constexpr float kCrossLimit = 0.25F;
+constexpr float kCrossLimit_m = 0.1F;
+constexpr float kCrossBend = 0.90F;  // cos(25 deg): more between the patches above and below is a crease
+// Returns of one firing lie within this time of each other.
+constexpr std::int32_t kFiring_ns = 60'000;
+
+/// What the ring itself tells about a return.
+struct Shape {
+  float deviation_m = 0.0F;  // of the return from its neighbours' mean, across the surface
+  float sigma_m = 0.0F;      // of the deviation, from range noise
+  int half_window = 0;       // 0: too near the end of its run
+  Eigen::Vector3f tangent = Eigen::Vector3f::Zero();
+};
+
+struct EdgeCandidate {
+  int index = 0;
+  int half_window = 0;
+  float score = 0.0F;
+};
+
+class Extraction {
+ public:
+  Extraction(const RingTable& table, const Calibration& calibration)
+      : table_(table),
+        range_sigma_(static_cast<float>(calibration.lidar_range_sigma_m)),
+        origin_(calibration.body_from_lidar.translation.cast<float>()) {
+    shapes_.resize(static_cast<std::size_t>(table.size()));
+    for (int r = 0; r < table_.ring_count(); ++r) {
+      for (int i = table_.ring_begin(r); i < table_.ring_end(r); ++i) shape(i) = measure(r, i);
+    }
+  }
+
+  std::vector<FeaturePoint> edges() const {
+    std::vector<FeaturePoint> edges;
+    std::vector<bool> taken(static_cast<std::size_t>(table_.size()), false);
+    std::vector<EdgeCandidate> candidates;
+    for (int r = 0; r < table_.ring_count(); ++r) {
+      const int begin = table_.ring_begin(r);
+      const int count = table_.ring_end(r) - begin;
+      for (int s = 0; s < kSectors; ++s) {
+        edge_candidates(begin + count * s / kSectors, begin + count * (s + 1) / kSectors, r, candidates);
+        take_strongest(candidates, taken, edges);
+      }
+    }
+    return edges;
+  }
+
+  std::vector<FeaturePoint> planes() const {
+    std::vector<FeaturePoint> cells;
+    std::vector<int> counts;
+    FlatIndex index(4096);
+    for (int r = 0; r < table_.ring_count(); ++r) {
+      Column above(table_, table_.ring_across(r, 1));
+      Column below(table_, table_.ring_across(r, -1));
+      for (int i = table_.ring_begin(r); i < table_.ring_end(r); ++i) {
+        if (!is_planar(i)) continue;
+        const Eigen::Vector3f normal = normal_at(i, above, below);
+        if (normal.isZero()) continue;
+        add_to_cell({table_.position(i), table_.intensity(i), normal}, index, cells, counts);
+      }
+    }
+    for (FeaturePoint& cell : cells) cell.normal.normalize();
+    return cells;
+  }
+
+ private:
+  /// Walks another ring in step with the one being read and finds the return of the same firing.
+  class Column {
+   public:
+    Column(const RingTable& table, int ring) : table_(table) {
+      if (ring < 0) return;
+      next_ = table.ring_begin(ring);
+      end_ = table.ring_end(ring);
+    }
+    /// -1 where that firing had no return in this ring.
+    int at(std::int32_t offset_ns) {
+      while (next_ < end_ && table_.offset_ns(next_) < offset_ns - kFiring_ns) ++next_;
+      return next_ < end_ && table_.offset_ns(next_) <= offset_ns + kFiring_ns ? next_ : -1;
+    }
+
+   private:
+    const RingTable& table_;
+    int next_ = 0;
+    int end_ = 0;
+  };
+
+  Shape& shape(int i) { return shapes_[static_cast<std::size_t>(i)]; }
+  const Shape& shape(int i) const { return shapes_[static_cast<std::size_t>(i)]; }
+  Eigen::Vector3f beam(int i) const { return (table_.position(i) - origin_).normalized(); }
+
+  int wanted_half_window(int ring, int i) const {
+    const float step_m = std::max(1e-3F, table_.beam_spacing(ring) * table_.range(i));
+    return std::clamp(static_cast<int>(std::ceil(kHalfWindow_m / step_m)), kLeastHalfWindow, kLargestHalfWindow);
+  }
+
+  /// Curvature (5.12), times the range, with two changes. The centre is the mean of a few returns, which cuts its noise.
+  /// The part along the surface is left out: uneven spacing of the returns on a slanting wall, not shape, causes it.
+  Shape measure(int ring, int i) const {
+    const int room = std::min(i - table_.run_begin(i), table_.run_end(i) - 1 - i);
+    const int n = std::min(wanted_half_window(ring, i), room);
+    if (n < kLeastHalfWindow) return {};
+    const int core = std::max(1, n / 8);
+    const Eigen::Vector3f before = table_.mean(i - n, i - 1);
+    const Eigen::Vector3f after = table_.mean(i + 1, i + n);
+    const Eigen::Vector3f offset = table_.mean(i - core, i + core) - 0.5F * (before + after);
+    Shape result;
+    result.half_window = n;
+    result.tangent = (after - before).normalized();
+    result.deviation_m = (offset - offset.dot(result.tangent) * result.tangent).norm();
+    result.sigma_m = range_sigma_ / std::sqrt(static_cast<float>(2 * core + 1));
+    return result;
+  }
+
+  void edge_candidates(int first, int end, int ring, std::vector<EdgeCandidate>& candidates) const {
+    candidates.clear();
+    for (int i = first; i < end; ++i) {
+      const Shape& s = shape(i);
+      if (s.half_window > 0) {
+        if (s.deviation_m < std::max(kEdgeCurvature * table_.range(i), kEdgeSigmas * s.sigma_m)) continue;
+        candidates.push_back({i, s.half_window, s.deviation_m / table_.range(i)});
+      } else if (is_silhouette(i, ring)) {
+        // Ranked by the turn that the unseen side of the step would show: half the least window, at a right angle.
+        candidates.push_back({i, kLeastHalfWindow, 0.5F * kLeastHalfWindow * table_.beam_spacing(ring)});
+      }
+    }
+  }
+
+  /// The end of a run where the surface stops in front of something further: a genuine edge. The far side of the same
+  /// gap is not: it is where the near surface's shadow falls (thesis 4.1, occlusion).
+  bool is_silhouette(int i, int ring) const {
+    const bool starts_run = i == table_.run_begin(i);
+    const bool ends_run = i + 1 == table_.run_end(i);
+    if (starts_run == ends_run || table_.run_end(i) - table_.run_begin(i) < 2 * kLeastHalfWindow) return false;
+    const int beyond = starts_run ? i - 1 : i + 1;
+    if (beyond < table_.ring_begin(ring) || beyond >= table_.ring_end(ring)) return false;
+    if (!table_.adjacent_in_angle(i, beyond) || table_.range(beyond) <= table_.range(i)) return false;
+    const int inside = starts_run ? i + kLeastHalfWindow : i - kLeastHalfWindow;
+    const Eigen::Vector3f along = (table_.position(inside) - table_.position(i)).normalized();
+    return along.cross(beam(i)).norm() > kSilhouetteGrazing;
+  }
+
+  /// Strongest first, none within the window of one already taken.
+  void take_strongest(std::vector<EdgeCandidate>& candidates, std::vector<bool>& taken,
+                      std::vector<FeaturePoint>& edges) const {
+    std::sort(candidates.begin(), candidates.end(), [](const EdgeCandidate& a, const EdgeCandidate& b) {
+      return a.score != b.score ? a.score > b.score : a.index < b.index;
+    });
+    int left = kEdgesPerSector;
+    for (const EdgeCandidate& c : candidates) {
+      if (left == 0) break;
+      if (taken[static_cast<std::size_t>(c.index)]) continue;
+      edges.push_back({table_.position(c.index), table_.intensity(c.index), Eigen::Vector3f::Zero()});
+      const int first = std::max(table_.run_begin(c.index), c.index - c.half_window);
+      const int last = std::min(table_.run_end(c.index) - 1, c.index + c.half_window);
+      for (int i = first; i <= last; ++i) taken[static_cast<std::size_t>(i)] = true;
+      --left;
+    }
+  }
+
+  bool is_planar(int i) const {
+    const Shape& s = shape(i);
+    return s.half_window > 0 &&
+           s.deviation_m < std::max(kPlaneCurvature * table_.range(i), kPlaneSigmas * s.sigma_m);
+  }
+
+  /// The step to the same surface on another ring, or zero where that ring sees another surface.
+  Eigen::Vector3f step_across(int i, int other) const {
+    if (other < 0 || shape(other).half_window == 0) return Eigen::Vector3f::Zero();
+    const Eigen::Vector3f step = smoothed(other) - smoothed(i);
+    const bool near = step.norm() < kCrossLimit * table_.range(i) + kCrossLimit_m;
+    return near ? step : Eigen::Vector3f::Zero();
+  }
+
+  Eigen::Vector3f smoothed(int i) const {
+    const int core = std::max(1, shape(i).half_window / 3);
+    return table_.mean(i - core, i + core);
+  }
+
+  /// Unit normal towards the sensor from the ring's own tangent and the steps to the rings above and below; zero where
+  /// they do not tell one or the beam grazes the surface.
+  Eigen::Vector3f normal_at(int i, Column& above, Column& below) const {
+    const Eigen::Vector3f up = step_across(i, above.at(table_.offset_ns(i)));
+    const Eigen::Vector3f down = -step_across(i, below.at(table_.offset_ns(i)));
+    Eigen::Vector3f across = up + down;
+    if (!up.isZero() && !down.isZero() && up.normalized().dot(down.normalized()) < kCrossBend) {
+      across = up.norm() < down.norm() ? up : down;  // a crease: the nearer neighbour is likelier on this side of it
+    }
+    const Eigen::Vector3f normal = shape(i).tangent.cross(across);
+    const float length = normal.norm();
+    if (length < 0.3F * across.norm() || length <= 0.0F) return Eigen::Vector3f::Zero();
+    const float towards = normal.dot(beam(i)) / length;
+    if (std::abs(towards) < kGrazing) return Eigen::Vector3f::Zero();
+    return (towards > 0.0F ? -1.0F : 1.0F) / length * normal;
+  }
+
+  static void add_to_cell(const FeaturePoint& point, FlatIndex& index, std::vector<FeaturePoint>& cells,
+                          std::vector<int>& counts) {
+    const Eigen::Vector3i cell = cell_of(point.position.cast<double>(), 1.0 / kPlaneSpacing_m);
+    const auto fresh = static_cast<std::uint32_t>(cells.size());
+    const std::uint32_t at = index.find_or_insert(pack_cell(cell, facing_side(point.normal)), fresh);
+    if (at == fresh) {
+      cells.push_back(point);
+      counts.push_back(1);
+      return;
+    }
+    FeaturePoint& mean = cells[at];
+    const float share = 1.0F / static_cast<float>(++counts[at]);
+    mean.position += share * (point.position - mean.position);
+    mean.intensity += share * (point.intensity - mean.intensity);
+    mean.normal += point.normal;
+  }
+
+  const RingTable& table_;
+  float range_sigma_;
+  Eigen::Vector3f origin_;
+  std::vector<Shape> shapes_;
+};
+
+}  // namespace
+
+FeatureCloud extract_features(const LidarScan& scan, const std::vector<Eigen::Vector3f>& points_in_body,
+                              const Calibration& calibration) {
+  const RingTable table(scan, points_in_body, calibration);
+  const Extraction extraction(table, calibration);
+  return {extraction.edges(), extraction.planes()};
+}
+
+}  // namespace plumbline

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "estimator/messages.h"
+
+namespace plumbline {
+
+/// A scan's usable returns sorted by ring, in firing order within a ring, cut into runs without a gap, with running sums
+/// from which the mean over any window costs the same. All indices are positions in the table.
+class RingTable {
+ public:
+  RingTable(const LidarScan& scan, const std::vector<Eigen::Vector3f>& points_in_body, const Calibration& calibration);
+
+  int size() const { return static_cast<int>(entries_.size()); }
+  int ring_count() const { return static_cast<int>(begin_.size()) - 1; }
+  int ring_begin(int ring) const { return begin_[static_cast<std::size_t>(ring)]; }
+  int ring_end(int ring) const { return begin_[static_cast<std::size_t>(ring) + 1]; }
+  /// Angle between neighbouring beams of a ring [rad], the median.
+  float beam_spacing(int ring) const { return rings_[static_cast<std::size_t>(ring)].spacing; }
+  /// The nearest ring at least kCrossAngle above (direction 1) or below (-1), or -1.
+  int ring_across(int ring, int direction) const;
+
+  const Eigen::Vector3f& position(int i) const { return entry(i).position; }
+  float range(int i) const { return entry(i).range; }
+  float intensity(int i) const { return entry(i).intensity; }
+  std::int32_t offset_ns(int i) const { return entry(i).offset_ns; }
+  /// The run of returns on one visible surface or chain of surfaces around i, [run_begin, run_end).
+  int run_begin(int i) const { return entry(i).run_begin; }
+  int run_end(int i) const { return entry(i).run_end; }
+  /// True where neighbours i and j of one ring are next to each other in angle, though perhaps not in depth.
+  bool adjacent_in_angle(int i, int j) const;
+
+  /// Mean position over [first, last].
+  Eigen::Vector3f mean(int first, int last) const {
+    const Eigen::Vector3d sum = sums_[static_cast<std::size_t>(last) + 1] - sums_[static_cast<std::size_t>(first)];
+    return (sum / (last - first + 1)).cast<float>();
+  }
+
+ private:
+  struct Entry {
+    Eigen::Vector3f position;   // de-skewed, in B
+    Eigen::Vector3f direction;  // of the beam, in L at its own time
+    float range = 0.0F;         // as measured
+    float intensity = 0.0F;
+    std::int32_t offset_ns = 0;
+    int run_begin = 0;
+    int run_end = 0;
+  };
+  struct Ring {
+    float spacing = 0.0F;
+    float elevation = 0.0F;
+  };
+
+  const Entry& entry(int i) const { return entries_[static_cast<std::size_t>(i)]; }
+  void sort_by_ring(const LidarScan& scan, const std::vector<Eigen::Vector3f>& points_in_body,
+                    const Calibration& calibration);
+  void measure_rings();
+  void cut_runs();
+  bool on_one_surface(int i, int j, float spacing) const;
+
+  std::vector<Entry> entries_;
+  std::vector<int> begin_;
+  std::vector<Ring> rings_;
+  std::vector<Eigen::Vector3d> sums_;  // sums_[i] is the sum over [0, i)
+};
+
+}  // namespace plumbline

@@ -1,0 +1,202 @@
+#include "estimator/lidar/scan_matcher.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "estimator/lidar/correspondence.h"
+#include "estimator/lidar/direction_sampling.h"
+#include "estimator/lidar/voxel_map.h"
+
+namespace plumbline {
+namespace {
+
+// Two range errors meet in a residual, the scan's and the map's. Below two centimetres the map's own errors (cells that
+// straddle a crease, curved surfaces, de-skewing) outweigh the lidar's noise.
+constexpr double kLeastSigma_m = 0.02;
+
+// Neighbours are looked for within a metre, or as far as two rings 2 degrees apart lie at the feature's range.
+constexpr double kLeastReach_m = 1.0;
+constexpr double kLargestReach_m = 1.5;
+constexpr double kReachPerRange = 0.07;
+
+// Correspondences are found anew only when the pose has moved this far since: searching is nearly all of a match's cost,
+// and planes a decimetre apart on one surface are the same plane.
+constexpr double kSearchAgain_m = 0.02;
+constexpr double kSearchAgain_rad = 0.003;
+
+// An edge is known to about half the spacing of the beams that straddle it [rad].
+constexpr double kEdgeSpread = 0.001;
+
+struct PlaneMatch {
+  Eigen::Vector3d point_in_body;
+  MapPlane plane;
+};
+
+struct LineMatch {
+  Eigen::Vector3d point_in_body;
+  MapLine line;
+  double sigma_m;
+};
+
+double reach_of(const FeaturePoint& feature) {
+  return std::clamp(kReachPerRange * feature.position.cast<double>().norm(), kLeastReach_m, kLargestReach_m);
+}
+
+std::vector<Eigen::Vector3d> in_world(const std::vector<FeaturePoint>& features, const Pose& world_from_body) {
+  std::vector<Eigen::Vector3d> points;
+  points.reserve(features.size());
+  for (const FeaturePoint& f : features) points.push_back(world_from_body * f.position.cast<double>());
+  return points;
+}
+
+std::vector<FeaturePoint> pick(const std::vector<FeaturePoint>& from, const std::vector<std::uint32_t>& which) {
+  std::vector<FeaturePoint> picked;
+  picked.reserve(which.size());
+  for (const std::uint32_t i : which) picked.push_back(from[i]);
+  return picked;
+}
+
+std::vector<FeaturePoint> every_nth(const std::vector<FeaturePoint>& from, int budget) {
+  std::vector<FeaturePoint> picked;
+  const std::size_t count = std::min(from.size(), static_cast<std::size_t>(budget));
+  picked.reserve(count);
+  for (std::size_t k = 0; k < count; ++k) picked.push_back(from[k * from.size() / count]);
+  return picked;
+}
+
+}  // namespace
+
+struct ScanMatcher::Impl {
+  Impl(const Calibration& calibration, const ScanMatcherConfig& settings, bool remap)
+      : config(settings),
+        sigma_m(std::max(kLeastSigma_m, std::sqrt(2.0) * calibration.lidar_range_sigma_m)),
+        edges(settings.coarse_voxel_m, settings.edge_resolution_m),
+        planes(settings.coarse_voxel_m, settings.plane_resolution_m) {
+    options.max_iterations = settings.max_iterations;
+    options.rotation_tolerance = 2e-5;
+    options.translation_tolerance = 1e-4;
+    options.degeneracy_threshold = settings.degeneracy_threshold;
+    options.remapping = remap;
+    options.min_features = settings.least_features;
+    plane_limits.map_sigma_m = edge_limits.map_sigma_m = 0.5 * calibration.lidar_range_sigma_m;
+    edge_limits.largest_tilt_sigma = settings.largest_edge_tilt;
+    plane_limits.largest_tilt_sigma = settings.largest_plane_tilt;
+  }
+
+  ScanMatcherConfig config;
+  double sigma_m;
+  SolverOptions options;
+  FitLimits plane_limits;
+  FitLimits edge_limits;
+  VoxelMap edges;
+  VoxelMap planes;
+};
+
+namespace {
+
+/// The linearizer of one match: finds correspondences at a pose and stacks their rows (thesis 5.13-5.15).
+class MapConstraints {
+ public:
+  MapConstraints(const VoxelMap& edges, const VoxelMap& planes, const FitLimits& edge_limits,
+                 const FitLimits& plane_limits, double sigma_m, const FeatureCloud& features)
+      : edges_(edges),
+        planes_(planes),
+        edge_limits_(edge_limits),
+        plane_limits_(plane_limits),
+        sigma_m_(sigma_m),
+        features_(features) {
+    plane_matches_.reserve(features.planes.size());
+    line_matches_.reserve(features.edges.size());
+  }
+
+  void linearize(const Pose& world_from_body, ResidualRows& rows) {
+    if (!searched_ || moved_far(world_from_body)) search(world_from_body);
+    for (const PlaneMatch& m : plane_matches_) add_plane_row(m.point_in_body, m.plane, world_from_body, sigma_m_, rows);
+    for (const LineMatch& m : line_matches_) add_line_rows(m.point_in_body, m.line, world_from_body, m.sigma_m, rows);
+  }
+
+ private:
+  bool moved_far(const Pose& pose) const {
+    const Vector6d moved = searched_at_.local(pose);
+    return moved.head<3>().norm() > kSearchAgain_rad || moved.tail<3>().norm() > kSearchAgain_m;
+  }
+
+  void search(const Pose& world_from_body) {
+    searched_ = true;
+    searched_at_ = world_from_body;
+    plane_matches_.clear();
+    line_matches_.clear();
+    for (const FeaturePoint& f : features_.planes) match_plane(f, world_from_body);
+    for (const FeaturePoint& f : features_.edges) match_line(f, world_from_body);
+  }
+
+  void match_plane(const FeaturePoint& feature, const Pose& world_from_body) {
+    const Eigen::Vector3d point = feature.position.cast<double>();
+    const Eigen::Vector3d normal = world_from_body.rotation * feature.normal.cast<double>();
+    NearestSamples nearest(reach_of(feature), normal.cast<float>());
+    planes_.nearest(world_from_body * point, reach_of(feature), nearest);
+    if (const auto plane = fit_plane(nearest, plane_limits_)) plane_matches_.push_back({point, *plane});
+  }
+
+  void match_line(const FeaturePoint& feature, const Pose& world_from_body) {
+    const Eigen::Vector3d point = feature.position.cast<double>();
+    NearestSamples nearest(reach_of(feature), Eigen::Vector3f::Zero());
+    edges_.nearest(world_from_body * point, reach_of(feature), nearest);
+    const auto line = fit_line(nearest, edge_limits_);
+    if (line) line_matches_.push_back({point, *line, std::hypot(sigma_m_, kEdgeSpread * point.norm())});
+  }
+
+  const VoxelMap& edges_;
+  const VoxelMap& planes_;
+  const FitLimits& edge_limits_;
+  const FitLimits& plane_limits_;
+  double sigma_m_;
+  const FeatureCloud& features_;
+  bool searched_ = false;
+  Pose searched_at_;
+  std::vector<PlaneMatch> plane_matches_;
+  std::vector<LineMatch> line_matches_;
+};
+
+}  // namespace
+
+ScanMatcher::ScanMatcher(const Calibration& calibration, const ScanMatcherConfig& config, bool remapping)
+    : impl_(std::make_unique<Impl>(calibration, config, remapping)) {}
+ScanMatcher::ScanMatcher(ScanMatcher&&) noexcept = default;
+ScanMatcher& ScanMatcher::operator=(ScanMatcher&&) noexcept = default;
+ScanMatcher::~ScanMatcher() = default;
+
+SolveResult ScanMatcher::match(const FeatureCloud& features, const PosePrior& world_from_body) {
+  Impl& m = *impl_;
+  const FeatureCloud used = {every_nth(features.edges, m.config.edge_budget),
+                             pick(features.planes, sample_by_direction(features.planes, m.config.plane_budget))};
+  m.edges.prepare(in_world(used.edges, world_from_body.mean));
+  m.planes.prepare(in_world(used.planes, world_from_body.mean));
+  MapConstraints constraints(m.edges, m.planes, m.edge_limits, m.plane_limits, m.sigma_m, used);
+  return solve(
+      world_from_body.mean, world_from_body,
+      [&](const Pose& pose, ResidualRows& rows) { constraints.linearize(pose, rows); }, m.options);
+}
+
+void ScanMatcher::insert(const FeatureCloud& features, const Pose& world_from_body, double path_m) {
+  Impl& m = *impl_;
+  const double oldest_m = path_m - m.config.memory_path_m;
+  m.edges.forget_before(oldest_m);
+  m.planes.forget_before(oldest_m);
+  const Eigen::Matrix3f rotation = world_from_body.rotation.toRotationMatrix().cast<float>();
+  const auto merge = [&](const FeaturePoint& f, VoxelMap& map) {
+    map.insert({world_from_body * f.position.cast<double>(), rotation * f.normal}, f.intensity, path_m);
+  };
+  for (const FeaturePoint& f : features.edges) merge(f, m.edges);
+  for (const FeaturePoint& f : features.planes) merge(f, m.planes);
+}
+
+std::vector<MapPoint> ScanMatcher::map() const {
+  std::vector<MapPoint> points;
+  impl_->edges.collect(points);
+  impl_->planes.collect(points);
+  return points;
+}
+
+}  // namespace plumbline
