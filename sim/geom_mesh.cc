@@ -93,7 +93,8 @@ int sphere_segments(double radius, double tolerance_m) {
   return segments + segments % 2;
 }
 
-// Latitudes of the lower (sign -1) or upper half of a sphere about height z, from below; poles excluded, equator included.
+// Latitudes of the lower (sign -1) or upper half of a sphere about height z, from below; poles excluded, equator
+// included.
 void add_hemisphere(std::vector<ProfilePoint>& rings, double radius, double z, int segments, int sign) {
   const int quarter = (segments + 3) / 4;
   for (int i = 1; i <= quarter; ++i) {
@@ -197,14 +198,22 @@ TriangleMesh mesh_of_geom(const mjModel& model, int geom, double tolerance_m, do
   }
   const Eigen::Vector3d size = size_of(model, geom);
   switch (model.geom_type[geom]) {
-    case mjGEOM_PLANE: return plane_mesh(size, plane_extent_m);
-    case mjGEOM_HFIELD: return height_field_mesh(model, model.geom_dataid[geom]);
-    case mjGEOM_SPHERE: return ellipsoid_mesh(Eigen::Vector3d::Constant(size[0]), tolerance_m);
-    case mjGEOM_CAPSULE: return capsule_mesh(size[0], size[1], tolerance_m);
-    case mjGEOM_ELLIPSOID: return ellipsoid_mesh(size, tolerance_m);
-    case mjGEOM_CYLINDER: return cylinder_mesh(size[0], size[1], tolerance_m);
-    case mjGEOM_BOX: return box_mesh(size);
-    case mjGEOM_MESH: return compiled_mesh(model, model.geom_dataid[geom]);
+    case mjGEOM_PLANE:
+      return plane_mesh(size, plane_extent_m);
+    case mjGEOM_HFIELD:
+      return height_field_mesh(model, model.geom_dataid[geom]);
+    case mjGEOM_SPHERE:
+      return ellipsoid_mesh(Eigen::Vector3d::Constant(size[0]), tolerance_m);
+    case mjGEOM_CAPSULE:
+      return capsule_mesh(size[0], size[1], tolerance_m);
+    case mjGEOM_ELLIPSOID:
+      return ellipsoid_mesh(size, tolerance_m);
+    case mjGEOM_CYLINDER:
+      return cylinder_mesh(size[0], size[1], tolerance_m);
+    case mjGEOM_BOX:
+      return box_mesh(size);
+    case mjGEOM_MESH:
+      return compiled_mesh(model, model.geom_dataid[geom]);
     default:
       throw std::invalid_argument("mesh_of_geom: geom " + std::to_string(geom) + " is of type " +
                                   std::to_string(model.geom_type[geom]) + ", which has no surface");

@@ -41,9 +41,7 @@ struct Functions {
   PFNGLGETPROGRAMINFOLOGPROC GetProgramInfoLog = load("glGetProgramInfoLog");
   PFNGLUSEPROGRAMPROC UseProgram = load("glUseProgram");
   PFNGLGETUNIFORMLOCATIONPROC GetUniformLocation = load("glGetUniformLocation");
-  PFNGLUNIFORM2FPROC Uniform2f = load("glUniform2f");
-  PFNGLUNIFORM1FVPROC Uniform1fv = load("glUniform1fv");
-  PFNGLUNIFORM4FVPROC Uniform4fv = load("glUniform4fv");
+  PFNGLUNIFORM1FPROC Uniform1f = load("glUniform1f");
   PFNGLUNIFORMMATRIX4FVPROC UniformMatrix4fv = load("glUniformMatrix4fv");
   PFNGLGENVERTEXARRAYSPROC GenVertexArrays = load("glGenVertexArrays");
   PFNGLBINDVERTEXARRAYPROC BindVertexArray = load("glBindVertexArray");
@@ -53,8 +51,10 @@ struct Functions {
   PFNGLENABLEVERTEXATTRIBARRAYPROC EnableVertexAttribArray = load("glEnableVertexAttribArray");
   PFNGLVERTEXATTRIBPOINTERPROC VertexAttribPointer = load("glVertexAttribPointer");
   PFNGLACTIVETEXTUREPROC ActiveTexture = load("glActiveTexture");
+  PFNGLTEXSTORAGE2DPROC TexStorage2D = load("glTexStorage2D");
   PFNGLTEXSTORAGE3DPROC TexStorage3D = load("glTexStorage3D");
   PFNGLTEXSUBIMAGE3DPROC TexSubImage3D = load("glTexSubImage3D");
+  decltype(&::glTexSubImage2D) TexSubImage2D = load("glTexSubImage2D");
   PFNGLGENFRAMEBUFFERSPROC GenFramebuffers = load("glGenFramebuffers");
   PFNGLBINDFRAMEBUFFERPROC BindFramebuffer = load("glBindFramebuffer");
   PFNGLGENRENDERBUFFERSPROC GenRenderbuffers = load("glGenRenderbuffers");
@@ -73,6 +73,7 @@ struct Functions {
   decltype(&::glFrontFace) FrontFace = load("glFrontFace");
   decltype(&::glDepthFunc) DepthFunc = load("glDepthFunc");
   decltype(&::glDrawElements) DrawElements = load("glDrawElements");
+  decltype(&::glFlush) Flush = load("glFlush");
   decltype(&::glReadPixels) ReadPixels = load("glReadPixels");
   decltype(&::glGetError) GetError = load("glGetError");
 };
@@ -181,9 +182,7 @@ GlContext::Program GlContext::make_program(const std::string& vertex_shader, con
     throw std::runtime_error(std::string("a shader program does not link: ") + log);
   }
   program.matrix = gl.GetUniformLocation(program.handle, "clip_from_chunk");
-  program.light = gl.GetUniformLocation(program.handle, "light");
-  program.lamps = gl.GetUniformLocation(program.handle, "lamps");
-  program.windows = gl.GetUniformLocation(program.handle, "windows");
+  program.light = gl.GetUniformLocation(program.handle, "light_factor");
   return program;
 }
 
@@ -212,24 +211,39 @@ std::uint32_t GlContext::make_mesh(std::span<const float> vertices, std::span<co
 }
 
 void GlContext::make_texture_array(int unit, int size,
-                                   std::span<const std::vector<std::vector<std::uint8_t>>* const> layers) {
+                                   std::span<const std::vector<std::vector<float>>* const> layers) {
   const Functions& gl = impl_->gl;
   const auto level_count = static_cast<GLsizei>(layers.front()->size());
   GLuint texture = 0;
   gl.GenTextures(1, &texture);
   gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
   gl.BindTexture(GL_TEXTURE_2D_ARRAY, texture);
-  gl.TexStorage3D(GL_TEXTURE_2D_ARRAY, level_count, GL_R8, size, size, static_cast<GLsizei>(layers.size()));
+  gl.TexStorage3D(GL_TEXTURE_2D_ARRAY, level_count, GL_R32F, size, size, static_cast<GLsizei>(layers.size()));
   gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   for (std::size_t layer = 0; layer < layers.size(); ++layer) {
     for (GLint level = 0; level < level_count; ++level) {
       gl.TexSubImage3D(GL_TEXTURE_2D_ARRAY, level, 0, 0, static_cast<GLint>(layer), size >> level, size >> level, 1,
-                       GL_RED, GL_UNSIGNED_BYTE, (*layers[layer])[static_cast<std::size_t>(level)].data());
+                       GL_RED, GL_FLOAT, (*layers[layer])[static_cast<std::size_t>(level)].data());
     }
   }
   if (gl.GetError() != GL_NO_ERROR) throw std::runtime_error("OpenGL does not take the world's textures");
 }
+
+void GlContext::make_texture(int unit, int width, int height, std::span<const float> texels) {
+  const Functions& gl = impl_->gl;
+  GLuint texture = 0;
+  gl.GenTextures(1, &texture);
+  gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  gl.BindTexture(GL_TEXTURE_2D, texture);
+  gl.TexStorage2D(GL_TEXTURE_2D, 1, GL_R32F, width, height);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RED, GL_FLOAT, texels.data());
+  if (gl.GetError() != GL_NO_ERROR) throw std::runtime_error("OpenGL does not take the world's light map");
+}
+
+void GlContext::flush() { impl_->gl.Flush(); }
 
 void GlContext::clear(float luminance) {
   const GLfloat colour[4] = {luminance, 0.0F, 0.0F, 1.0F};
@@ -238,15 +252,9 @@ void GlContext::clear(float luminance) {
   impl_->gl.ClearBufferfv(GL_DEPTH, 0, &farthest);
 }
 
-void GlContext::use(const Program& program, float ambient_lux, float light_factor) {
+void GlContext::use(const Program& program, float light_factor) {
   impl_->gl.UseProgram(program.handle);
-  impl_->gl.Uniform2f(program.light, ambient_lux, light_factor);
-}
-
-void GlContext::set_lamps(const Program& program, std::span<const Vector4> lamps, std::span<const float> windows) {
-  if (lamps.empty()) return;
-  impl_->gl.Uniform4fv(program.lamps, static_cast<GLsizei>(lamps.size()), lamps.front().data());
-  impl_->gl.Uniform1fv(program.windows, static_cast<GLsizei>(windows.size()), windows.data());
+  impl_->gl.Uniform1f(program.light, light_factor);
 }
 
 void GlContext::draw(const Program& program, std::uint32_t mesh, int index_count, const Matrix& clip_from_chunk) {

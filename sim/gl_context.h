@@ -15,14 +15,11 @@ namespace plumbline {
 class GlContext {
  public:
   using Matrix = std::array<float, 16>;  ///< column-major
-  using Vector4 = std::array<float, 4>;
 
   struct Program {
     std::uint32_t handle = 0;
     std::int32_t matrix = -1;   ///< uniform mat4 clip_from_chunk
-    std::int32_t light = -1;    ///< uniform vec2 light
-    std::int32_t lamps = -1;    ///< uniform vec4 lamps[]
-    std::int32_t windows = -1;  ///< uniform float windows[]
+    std::int32_t light = -1;   ///< uniform float light_factor
   };
 
   /// @param threads  rasteriser threads besides the caller's, 0 for none. Mesa reads this once per process, when the
@@ -41,18 +38,18 @@ class GlContext {
   /// Interleaved float vertices; attribute i has attribute_sizes[i] components. Returns a vertex array object.
   std::uint32_t make_mesh(std::span<const float> vertices, std::span<const int> attribute_sizes,
                           std::span<const std::uint32_t> indices);
-  /// Layers of one-channel 8-bit mip levels, tiling and trilinearly filtered, bound to a texture unit for good.
-  /// layers[i] points to level 0, 1, 2, ... of sizes size, size / 2, ..., 1.
-  void make_texture_array(int unit, int size, std::span<const std::vector<std::vector<std::uint8_t>>* const> layers);
+  /// Layers of one-channel mip levels, tiling and trilinearly filtered, bound to a texture unit for good. Floats, because
+  /// llvmpipe filters them a quarter faster than bytes. layers[i] has levels of sizes size, size / 2, ..., 1.
+  void make_texture_array(int unit, int size, std::span<const std::vector<std::vector<float>>* const> layers);
+  /// One channel, bilinearly filtered, without mip levels.
+  void make_texture(int unit, int width, int height, std::span<const float> texels);
 
   void clear(float luminance);
-  /// @param ambient_lux, light_factor  illuminance = light_factor * (ambient_lux + the lamps')
-  void use(const Program& program, float ambient_lux, float light_factor);
-  /// @param lamps    position relative to the mesh, intensity
-  /// @param windows  1 / reach^2, one for each lamp
-  void set_lamps(const Program& program, std::span<const Vector4> lamps, std::span<const float> windows);
+  void use(const Program& program, float light_factor);
   void draw(const Program& program, std::uint32_t mesh, int index_count, const Matrix& clip_from_chunk);
 
+  /// Sets the rasteriser threads to work without waiting for them.
+  void flush();
   void read_luminance(std::vector<float>& out);
   void read_depth(std::vector<float>& out);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <numbers>
+#include <tuple>
 
 #include "sim/geom_mesh.h"
 #include "sim/polygon_cut.h"
@@ -43,7 +44,8 @@ double plane_extent(const World& world, const std::vector<int>& geoms, double vi
 
 class ChunkBuilder {
  public:
-  ChunkBuilder(const World& world, double extent_m) : world_(world) {
+  ChunkBuilder(const World& world, double extent_m)
+      : world_(world), light_map_(world.lamps(), world.ambient_lux()) {
     // At most some 64 by 64 large cells under an infinite plane.
     while (large_cell_m_ * 32.0 < extent_m) large_cell_m_ *= 2.0;
   }
@@ -54,22 +56,21 @@ class ChunkBuilder {
     face_ = {normal.normalized(), mapping.face(normal.normalized()),
              {material.albedo / std::numbers::pi_v<float>, material.contrast, static_cast<float>(layer)}};
     cut_into_cells(triangle, large_cell_m_, [this](const Eigen::Vector3i& large_cell, const Polygon& piece) {
-      if (chunk_at(large_cell, large_cell_m_).lamps.empty()) {
-        add_polygon(piece, chunk_at(large_cell, large_cell_m_));
-      } else {
-        cut_into_cells(piece, kCell_m, [this](const Eigen::Vector3i& cell, const Polygon& small_piece) {
-          add_polygon(small_piece, chunk_at(cell, kCell_m));
-        });
-      }
+      Cell& large = cell_at(large_cell, large_cell_m_);
+      if (large.lamps.empty()) return add_piece(piece, large);
+      cut_into_cells(piece, kCell_m, [this](const Eigen::Vector3i& cell, const Polygon& small_piece) {
+        add_piece(small_piece, cell_at(cell, kCell_m));
+      });
     });
   }
 
-  std::vector<RenderChunk> take() {
-    std::vector<RenderChunk> chunks;
-    for (auto& [key, chunk] : chunks_) {
-      if (!chunk.indices.empty()) chunks.push_back(std::move(chunk));
+  RenderScene take() {
+    RenderScene scene;
+    for (auto& [key, cell] : cells_) {
+      if (!cell.chunk.indices.empty()) scene.chunks.push_back(std::move(cell.chunk));
     }
-    return chunks;
+    scene.light_map = light_map_.light();
+    return scene;
   }
 
  private:
@@ -79,70 +80,63 @@ class ChunkBuilder {
     std::array<float, 3> surface;
   };
 
-  RenderChunk& chunk_at(const Eigen::Vector3i& cell, double cell_m) {
-    const auto [entry, is_new] = chunks_.try_emplace({cell_m, cell.x(), cell.y(), cell.z()});
-    RenderChunk& chunk = entry->second;
+  struct Cell {
+    RenderChunk chunk;
+    std::vector<int> lamps;  // that reach it
+  };
+
+  Cell& cell_at(const Eigen::Vector3i& index, double cell_m) {
+    const auto [entry, is_new] = cells_.try_emplace({cell_m, index.x(), index.y(), index.z()});
+    Cell& cell = entry->second;
     if (is_new) {
-      const Eigen::Vector3d low = cell.cast<double>() * cell_m;
-      chunk.origin = low + Eigen::Vector3d::Constant(0.5 * cell_m);
-      chunk.lamps = lamps_reaching({low, low + Eigen::Vector3d::Constant(cell_m)});
+      const Eigen::Vector3d low = index.cast<double>() * cell_m;
+      cell.chunk.origin = low + Eigen::Vector3d::Constant(0.5 * cell_m);
+      cell.lamps = lamps_reaching({low, low + Eigen::Vector3d::Constant(cell_m)});
     }
-    return chunk;
+    return cell;
   }
 
   std::vector<int> lamps_reaching(const Eigen::AlignedBox3d& box) const {
-    std::vector<std::pair<double, int>> by_weakness;
+    std::vector<int> reaching;
     for (std::size_t i = 0; i < world_.lamps().size(); ++i) {
       const Lamp& lamp = world_.lamps()[i];
-      const double distance2 = box.squaredExteriorDistance(lamp.position);
-      if (distance2 >= lamp.reach_m * lamp.reach_m || lamp.intensity_cd <= 0.0) continue;
-      by_weakness.emplace_back((distance2 + 1.0) / lamp.intensity_cd, static_cast<int>(i));
+      if (box.exteriorDistance(lamp.position) < lamp.reach_m) reaching.push_back(static_cast<int>(i));
     }
-    std::sort(by_weakness.begin(), by_weakness.end());
-    if (by_weakness.size() > kMaxLampsPerChunk) by_weakness.resize(kMaxLampsPerChunk);
-    std::vector<int> lamps;
-    for (const auto& [weakness, lamp] : by_weakness) lamps.push_back(lamp);
-    return lamps;
+    return reaching;
   }
 
-  void add_polygon(const Polygon& polygon, RenderChunk& chunk) {
+  void add_piece(const Polygon& piece, Cell& cell) {
+    const std::vector<Eigen::Vector2f> light = light_map_.add(piece, face_.normal, cell.lamps);
     std::vector<std::uint32_t> corners;
-    for (const Eigen::Vector3d& point : polygon) corners.push_back(add_vertex(point, chunk));
+    for (std::size_t i = 0; i < piece.size(); ++i) corners.push_back(add_vertex(piece[i], light[i], cell.chunk));
     for (std::size_t i = 2; i < corners.size(); ++i) {
-      chunk.indices.insert(chunk.indices.end(), {corners[0], corners[i - 1], corners[i]});
+      cell.chunk.indices.insert(cell.chunk.indices.end(), {corners[0], corners[i - 1], corners[i]});
     }
   }
 
-  std::uint32_t add_vertex(const Eigen::Vector3d& point, RenderChunk& chunk) const {
+  std::uint32_t add_vertex(const Eigen::Vector3d& point, const Eigen::Vector2f& light, RenderChunk& chunk) const {
     // Whole tiles are taken away, the same ones all over the chunk, to keep float32 precise far from the origin.
     const Eigen::Vector4d whole_tiles = face_.mapping(chunk.origin).array().floor();
     RenderVertex vertex;
     Eigen::Map<Eigen::Vector3f>(vertex.position.data()) = (point - chunk.origin).cast<float>();
-    Eigen::Map<Eigen::Vector3f>(vertex.normal.data()) = face_.normal.cast<float>();
     Eigen::Map<Eigen::Vector4f>(vertex.place.data()) = (face_.mapping(point) - whole_tiles).cast<float>();
+    Eigen::Map<Eigen::Vector2f>(vertex.light.data()) = light;
     vertex.surface = face_.surface;
     chunk.bounds.extend(point);
-
-    // The pieces of one face come one after the other and share corners.
-    constexpr std::size_t kRecent = 8;
-    const std::size_t count = chunk.vertices.size();
-    for (std::size_t i = count > kRecent ? count - kRecent : 0; i < count; ++i) {
-      if (chunk.vertices[i] == vertex) return static_cast<std::uint32_t>(i);
-    }
     chunk.vertices.push_back(vertex);
-    return static_cast<std::uint32_t>(count);
+    return static_cast<std::uint32_t>(chunk.vertices.size() - 1);
   }
 
   const World& world_;
   double large_cell_m_ = 4.0 * kCell_m;
+  LightMapBuilder light_map_;
   Face face_;
-  std::map<std::tuple<double, int, int, int>, RenderChunk> chunks_;
+  std::map<std::tuple<double, int, int, int>, Cell> cells_;
 };
 
 }  // namespace
 
-std::vector<RenderChunk> make_render_chunks(const World& world, const std::vector<int>& layer_of_material,
-                                            double view_distance_m) {
+RenderScene make_render_scene(const World& world, const std::vector<int>& layer_of_material, double view_distance_m) {
   const std::vector<int> geoms = drawn_geoms(world);
   const double extent_m = plane_extent(world, geoms, view_distance_m);
   ChunkBuilder builder(world, extent_m);

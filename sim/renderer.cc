@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -14,7 +13,7 @@
 namespace plumbline {
 namespace {
 
-constexpr std::size_t kMaxLayers = 32;
+constexpr std::size_t kMaxLayers = 12;  // of 11 MB each
 
 RenderView checked(const RenderView& view) {
   const auto require = [](bool holds, const char* rule) {
@@ -80,16 +79,12 @@ bool outside_view(const Eigen::AlignedBox3d& box, const Eigen::Matrix4d& clip_fr
   return false;
 }
 
-std::size_t to_size(int value) { return static_cast<std::size_t>(value); }
-
 /// A chunk as the graphics library has it.
 struct DrawnChunk {
   Eigen::Vector3d origin;
   Eigen::AlignedBox3d bounds;
   std::uint32_t mesh = 0;
   int index_count = 0;
-  std::vector<GlContext::Vector4> lamps;
-  std::vector<float> windows;
 };
 
 }  // namespace
@@ -98,17 +93,16 @@ struct Renderer::Impl {
   Impl(const World& world, const RenderView& render_view, const RendererOptions& render_options);
 
   void upload_textures(const World& world, const std::vector<Material>& materials);
-  void upload(const RenderChunk& chunk, const std::vector<Lamp>& world_lamps);
+  void upload(const RenderChunk& chunk);
   std::vector<const DrawnChunk*> visible_chunks(const Pose& world_from_camera) const;
   void draw(const std::vector<const DrawnChunk*>& chunks, const Pose& world_from_camera, double light_factor);
   void read_depth();
 
   RenderView view;
   RendererOptions options;
-  double ambient_lux;
   double sky_luminance;
   GlContext gl;
-  std::map<std::size_t, GlContext::Program> program_of_lamp_count;
+  GlContext::Program program;
   std::vector<DrawnChunk> chunks;
   RadianceImage image;
 };
@@ -116,23 +110,23 @@ struct Renderer::Impl {
 Renderer::Impl::Impl(const World& world, const RenderView& render_view, const RendererOptions& render_options)
     : view(checked(render_view)),
       options(render_options),
-      ambient_lux(world.ambient_lux()),
       sky_luminance(world.sky_luminance()),
-      gl(view.width, view.height, options.threads) {
+      gl(view.width, view.height, options.threads),
+      program(gl.make_program(world_vertex_shader(), world_fragment_shader())) {
   image.width = view.width;
   image.height = view.height;
   const Layers layers(world.materials());
   upload_textures(world, layers.drawn);
-  for (const RenderChunk& chunk : make_render_chunks(world, layers.of_material, view.far_m)) {
-    upload(chunk, world.lamps());
-  }
+  const RenderScene scene = make_render_scene(world, layers.of_material, view.far_m);
+  gl.make_texture(2, scene.light_map.width, scene.light_map.height, scene.light_map.lux);
+  for (const RenderChunk& chunk : scene.chunks) upload(chunk);
 }
 
 void Renderer::Impl::upload_textures(const World& world, const std::vector<Material>& materials) {
   if (materials.empty()) return;
   const std::vector<SurfaceTextures> textures = make_textures(materials, world.seed());
-  std::vector<const std::vector<std::vector<std::uint8_t>>*> structure;
-  std::vector<const std::vector<std::vector<std::uint8_t>>*> wear;
+  std::vector<const std::vector<std::vector<float>>*> structure;
+  std::vector<const std::vector<std::vector<float>>*> wear;
   for (const SurfaceTextures& surface : textures) {
     structure.push_back(&surface.structure.levels);
     wear.push_back(&surface.wear.levels);
@@ -141,7 +135,7 @@ void Renderer::Impl::upload_textures(const World& world, const std::vector<Mater
   gl.make_texture_array(1, kTextureSize, wear);
 }
 
-void Renderer::Impl::upload(const RenderChunk& chunk, const std::vector<Lamp>& world_lamps) {
+void Renderer::Impl::upload(const RenderChunk& chunk) {
   DrawnChunk drawn;
   drawn.origin = chunk.origin;
   drawn.bounds = chunk.bounds;
@@ -149,16 +143,6 @@ void Renderer::Impl::upload(const RenderChunk& chunk, const std::vector<Lamp>& w
   constexpr std::size_t kFloats = sizeof(RenderVertex) / sizeof(float);
   drawn.mesh = gl.make_mesh({chunk.vertices.front().position.data(), chunk.vertices.size() * kFloats},
                             RenderVertex::kAttributeSizes, chunk.indices);
-  for (const int i : chunk.lamps) {
-    const Lamp& lamp = world_lamps[to_size(i)];
-    const Eigen::Vector3f position = (lamp.position - chunk.origin).cast<float>();
-    drawn.lamps.push_back({position.x(), position.y(), position.z(), static_cast<float>(lamp.intensity_cd)});
-    drawn.windows.push_back(static_cast<float>(1.0 / (lamp.reach_m * lamp.reach_m)));
-  }
-  auto& program = program_of_lamp_count[drawn.lamps.size()];
-  if (program.handle == 0) {
-    program = gl.make_program(world_vertex_shader(), world_fragment_shader(static_cast<int>(drawn.lamps.size())));
-  }
   chunks.push_back(std::move(drawn));
 }
 
@@ -184,15 +168,13 @@ std::vector<const DrawnChunk*> Renderer::Impl::visible_chunks(const Pose& world_
 void Renderer::Impl::draw(const std::vector<const DrawnChunk*>& visible, const Pose& world_from_camera,
                           double light_factor) {
   gl.clear(static_cast<float>(sky_luminance * light_factor));
+  gl.use(program, static_cast<float>(light_factor));
   const Eigen::Matrix4d projection = clip_from_camera(view);
   const Eigen::Matrix3d rotation = world_from_camera.rotation.conjugate().toRotationMatrix();
   Eigen::Matrix4d camera_from_chunk = Eigen::Matrix4d::Identity();
   camera_from_chunk.topLeftCorner<3, 3>() = rotation;
   for (const DrawnChunk* chunk : visible) {
-    const GlContext::Program& program = program_of_lamp_count.at(chunk->lamps.size());
     camera_from_chunk.topRightCorner<3, 1>() = rotation * (chunk->origin - world_from_camera.translation);
-    gl.use(program, static_cast<float>(ambient_lux), static_cast<float>(light_factor));
-    gl.set_lamps(program, chunk->lamps, chunk->windows);
     gl.draw(program, chunk->mesh, chunk->index_count, column_major(projection * camera_from_chunk));
   }
 }
@@ -210,12 +192,22 @@ Renderer::Renderer(const World& world, const RenderView& view, const RendererOpt
 
 Renderer::~Renderer() = default;
 
-const RadianceImage& Renderer::render(const Pose& world_from_camera, double light_factor) {
+void Renderer::start(const Pose& world_from_camera, double light_factor) {
   impl_->gl.make_current();
   impl_->draw(impl_->visible_chunks(world_from_camera), world_from_camera, light_factor);
+  impl_->gl.flush();
+}
+
+const RadianceImage& Renderer::finish() {
+  impl_->gl.make_current();
   impl_->gl.read_luminance(impl_->image.luminance);
   if (impl_->options.depth) impl_->read_depth();
   return impl_->image;
+}
+
+const RadianceImage& Renderer::render(const Pose& world_from_camera, double light_factor) {
+  start(world_from_camera, light_factor);
+  return finish();
 }
 
 }  // namespace plumbline

@@ -53,6 +53,11 @@ class Renderer {
   /// The reference stays valid until the next call.
   const RadianceImage& render(const Pose& world_from_camera, double light_factor);
 
+  /// The two halves of render(). With RendererOptions::threads > 0, the picture is drawn by those threads while the
+  /// caller does something else between start() and finish().
+  void start(const Pose& world_from_camera, double light_factor);
+  const RadianceImage& finish();
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

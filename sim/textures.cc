@@ -181,21 +181,10 @@ std::vector<float> halved(const std::vector<float>& fine, int size) {
   return coarse;
 }
 
-std::vector<std::uint8_t> quantised(const std::vector<float>& values) {
-  std::vector<std::uint8_t> texels(values.size());
-  std::transform(values.begin(), values.end(), texels.begin(), [](float value) {
-    return static_cast<std::uint8_t>(127.5F * (1.0F + value / kTextureRange) + 0.5F);
-  });
-  return texels;
-}
-
 Texture pyramid_of(const TileCanvas& canvas) {
-  Texture texture{canvas.size(), {quantised(canvas.values())}};
-  std::vector<float> level = canvas.values();
-  for (int size = canvas.size(); size > 1; size /= 2) {
-    level = halved(level, size);
-    texture.levels.push_back(quantised(level));
-  }
+  Texture texture{canvas.size(), {canvas.values()}};
+  for (float& texel : texture.levels.front()) texel += 1.0F;
+  for (int size = canvas.size(); size > 1; size /= 2) texture.levels.push_back(halved(texture.levels.back(), size));
   return texture;
 }
 

@@ -7,11 +7,11 @@
 
 namespace plumbline {
 
-/// A mip-mapped grey texture that tiles. A texel t stands for the factor 1 + kTextureRange * (t / 127.5 - 1), whose mean
-/// over the tile is 1, on the material's albedo.
+/// A mip-mapped texture that tiles. A texel is a factor on the material's albedo, within 1 +- kTextureRange; the mean over
+/// the tile is 1.
 struct Texture {
-  int size = 0;                                   ///< of level 0, a power of two
-  std::vector<std::vector<std::uint8_t>> levels;  ///< box-filtered in linear light, down to one texel
+  int size = 0;                            ///< of level 0, a power of two
+  std::vector<std::vector<float>> levels;  ///< box-filtered in linear light, down to one texel
 };
 
 inline constexpr float kTextureRange = 0.9F;

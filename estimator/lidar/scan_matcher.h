@@ -12,15 +12,15 @@ namespace plumbline {
 /// One set of settings for all scenarios; the reasons stand at the places of use.
 struct ScanMatcherConfig {
   double coarse_voxel_m = 10.0;
-  double edge_resolution_m = 0.2;
-  double plane_resolution_m = 0.4;
+  double edge_resolution_m = 0.1;
+  double plane_resolution_m = 0.3;
   double memory_path_m = 300.0;        ///< nothing older takes part in matching
   double degeneracy_threshold = 0.0;   ///< on whitened J^T J; set from evidence
   int max_iterations = 8;
   int plane_budget = 1200;             ///< planar features matched of one scan
   int edge_budget = 300;               ///< edge features matched of one scan
   int least_features = 50;             ///< fewer matched: nothing is well-conditioned
-  double largest_plane_tilt = 0.02;    ///< [rad] one sigma of a fitted plane's normal
+  double largest_plane_tilt = 0.04;    ///< [rad] one sigma of a fitted plane's normal
   double largest_edge_tilt = 0.05;     ///< [rad] one sigma of a fitted line's direction
 };
 

@@ -113,7 +113,7 @@ struct DepthMap::Impl {
   std::deque<Scan> scans;  // oldest first
   AngularPoints view;
   std::unique_ptr<AngularTree> tree;
-  std::vector<bool> cell_taken;  // one flag per angular cell of the view
+  std::vector<std::uint8_t> cell_taken;  // one flag per angular cell of the view
   mutable std::vector<Neighbour> neighbours;
   mutable std::vector<Neighbour> nearer_surface;
 
@@ -173,7 +173,7 @@ void DepthMap::Impl::gather_view(const Pose& world_from_camera) {
   const double top = -camera.cy / camera.fy - margin;
   const int columns = static_cast<int>((camera.width / camera.fx + 2.0 * margin) / cell) + 1;
   const int rows = static_cast<int>((camera.height / camera.fy + 2.0 * margin) / cell) + 1;
-  cell_taken.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), false);
+  cell_taken.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0);
 
   const Pose camera_from_world = world_from_camera.inverse();
   const Eigen::Matrix3f rotation = camera_from_world.rotation.toRotationMatrix().cast<float>();
@@ -185,13 +185,14 @@ void DepthMap::Impl::gather_view(const Pose& world_from_camera) {
     for (const Eigen::Vector3f& point : scan->points_in_world) {
       const Eigen::Vector3f p = rotation * (point - origin);
       if (!(p.z() > static_cast<float>(kLeastDepth))) continue;
-      const float column = (p.x() / p.z() - left_f) * cells_per_unit;
-      const float row = (p.y() / p.z() - top_f) * cells_per_unit;
+      const float inverse_z = 1.0F / p.z();
+      const float column = (p.x() * inverse_z - left_f) * cells_per_unit;
+      const float row = (p.y() * inverse_z - top_f) * cells_per_unit;
       if (column < 0 || row < 0 || column >= static_cast<float>(columns) || row >= static_cast<float>(rows)) continue;
       const auto index = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
                          static_cast<std::size_t>(column);
-      if (cell_taken[index]) continue;
-      cell_taken[index] = true;
+      if (cell_taken[index] != 0) continue;
+      cell_taken[index] = 1;
       view.angles.push_back(angles_of(p));
       view.positions.push_back(p);
     }

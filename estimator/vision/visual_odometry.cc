@@ -31,6 +31,7 @@ struct Feature {
   InverseDepth triangulated;   ///< in the key-frame, from its whole track
   TrackedFeature::Depth depth_source = TrackedFeature::Depth::kNone;
   bool epipolar = false;       ///< which row kind this image gives
+  Eigen::Matrix2d whitening = Eigen::Matrix2d::Identity();  ///< of its reprojection rows, else unused
   bool inlier = true;
   int outlier_frames = 0;      ///< in a row
 };
@@ -207,14 +208,17 @@ void VisualOdometry::Impl::track(const Pose& predicted_keyframe_from_body) {
 }
 
 /// A depthless feature gives an epipolar row once its parallax exceeds what its noise and the prior's rotation could
-/// feign; before that it is a direction, as of a point far away, and says nothing about translation.
+/// feign; before that it is a direction, as of a point far away, and says nothing about translation. The noise of the
+/// other rows depends on the motion as well. Both are decided once, at the prior, for all iterations: deciding anew at
+/// every iterate tripled the iterations.
 void VisualOdometry::Impl::choose_rows(const PosePrior& prior) {
   const CameraMotion motion = camera_motion(prior.mean, body_from_camera);
   const double rotation_px = camera.fx * std::sqrt(prior.covariance.topLeftCorner<3, 3>().trace());
   for (Feature& f : features) {
-    if (f.depth_source != TrackedFeature::Depth::kNone) continue;
     const double least = kLeastParallaxInSigma * std::hypot(f.sighting.pixel_sigma, rotation_px);
-    f.epipolar = parallax_px(motion, camera, f.sighting) > least;
+    f.epipolar =
+        f.depth_source == TrackedFeature::Depth::kNone && parallax_px(motion, camera, f.sighting) > least;
+    if (!f.epipolar) f.whitening = reprojection_whitening(motion, camera, f.sighting);
   }
 }
 
@@ -231,7 +235,7 @@ SolveResult VisualOdometry::Impl::solve_motion(const PosePrior& prior) {
         const PixelRow row = epipolar_row(motion, camera, f.sighting);
         rows.add(row.residual, row.jacobian);
       } else {
-        const PixelRows pair = reprojection_rows(motion, camera, f.sighting);
+        const PixelRows pair = reprojection_rows(motion, camera, f.sighting, f.whitening);
         rows.add(pair.residual[0], pair.jacobian.row(0), pair.residual[1], pair.jacobian.row(1));
       }
     }
