@@ -60,7 +60,7 @@ void run(const Scenario& scenario, const Trajectory& world_from_body, MessageSou
     if (k % scenario.rig.decimation == 0) recorder.deliver(sample);
     if (options.progress && k % samples_per_report == 0) {
       const bool go_on = options.progress(static_cast<double>(k) / static_cast<double>(samples));
-      if (!go_on) return recorder.interrupt();
+      if (!go_on) return recorder.set_fault("interrupted");
     }
   }
   others.up_to(world_from_body.end_ns() + 1);
