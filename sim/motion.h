@@ -35,6 +35,7 @@ struct MotionConfig {
   double speed_factor = 1.0;
   double acceleration_mps2 = 1.0;  ///< along the path
   double rest_s = 2.0;             ///< at the start
+  double smoothing_s = 1.2;        ///< corners and changes of speed are spread over this time
   Attitude attitude = Attitude::kHeading;
   double gait_frequency_hz = 0.0;  ///< steps per second; 0: no gait
   double gait_height_m = 0.025;    ///< bob, half peak to peak

@@ -25,23 +25,38 @@ struct RadianceImage {
   int width = 0;
   int height = 0;
   std::vector<float> luminance;  ///< [cd/m^2]
-  std::vector<float> depth_m;    ///< along the optical axis; far_m where nothing is
+  std::vector<float> depth_m;    ///< along the optical axis; far_m where nothing is; see RendererOptions
 };
 
-/// Draws the world with OpenGL 4.5 core on OSMesa, headless, into a 32-bit float framebuffer.
+struct RendererOptions {
+  /// llvmpipe's threads besides the caller's; the frames are the same whatever their number. Mesa reads it once per
+  /// process: the first renderer decides for all that follow.
+  int threads = 0;
+  bool depth = true;  ///< false leaves RadianceImage::depth_m empty and saves reading it back
+};
+
+/// Draws the world with OpenGL 4.5 core on OSMesa, headless, into a 32-bit float framebuffer. Surfaces are Lambertian:
+/// luminance = albedo / pi * illuminance. Geoms stand where World::data() has them at construction. Nothing casts a
+/// shadow, light does not bounce, and edges are not anti-aliased. Surfaces are drawn from outside only.
 /// Construction, use and destruction belong to one thread (the GL context is current there).
 class Renderer {
  public:
+  /// @throws std::invalid_argument naming the view's field that is out of range.
   /// @throws std::runtime_error if no OpenGL 4.5 context can be had.
-  Renderer(const World& world, const RenderView& view);
+  Renderer(const World& world, const RenderView& view, const RendererOptions& options = {});
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
   ~Renderer();
 
   /// @param world_from_camera  optical frame (x right, y down, z forward)
-  /// @param light_factor       multiplies all lamps and the ambient light
+  /// @param light_factor       multiplies all lamps, the ambient light and the sky
   /// The reference stays valid until the next call.
   const RadianceImage& render(const Pose& world_from_camera, double light_factor);
+
+  /// The two halves of render(). With RendererOptions::threads > 0, the picture is drawn by those threads while the
+  /// caller does something else between start() and finish().
+  void start(const Pose& world_from_camera, double light_factor);
+  const RadianceImage& finish();
 
  private:
   struct Impl;

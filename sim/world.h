@@ -3,13 +3,11 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
-struct mjModel_;
-struct mjData_;
+#include "sim/mjcf_model.h"
 
 namespace plumbline {
 
@@ -30,6 +28,10 @@ struct Lamp {
   double reach_m = 15.0;                               ///< its light fades smoothly to nothing here, so that far lamps cost nothing
 };
 
+/// The smooth fading of a lamp's light towards its reach: 1 near by, 0 from reach_m on. A lamp's illuminance of a surface
+/// is intensity_cd * cos(incidence) / distance^2 * lamp_window(distance, reach); nothing casts shadows.
+double lamp_window(double distance_m, double reach_m);
+
 /// All lamps and the ambient light are multiplied by `factor` from `start_s` on, until the next entry.
 struct LightStep {
   double start_s = 0.0;
@@ -49,9 +51,12 @@ struct SceneDescription {
 /// Every MJCF, procedural or a user's, gets a mocap body "plumbline_rig" that carries the sensors; it has no geoms.
 class World {
  public:
-  /// @throws std::invalid_argument with MuJoCo's own message if the MJCF is rejected.
+  /// Geoms without material="…" look as their rgba says.
+  /// @throws std::invalid_argument with MuJoCo's own message if the MJCF is rejected, or naming a geom's material that
+  /// the scene does not describe.
   static World from_scene(const SceneDescription& scene, std::uint64_t world_seed);
-  /// A user's MJCF; materials follow its <material> and rgba, lamps its <light>s (or one overhead light without any).
+  /// A user's MJCF. Materials follow its <material> and rgba (concrete of that luminance; its textures must load, but
+  /// are not drawn), lamps its <light>s (or one overhead light without any).
   /// @throws std::invalid_argument naming the file if it is missing or MuJoCo rejects it or a mesh or texture it names.
   static World from_mjcf_file(const std::filesystem::path& path, std::uint64_t world_seed);
 
@@ -73,16 +78,16 @@ class World {
   double sky_luminance() const { return sky_luminance_; }
   std::uint64_t seed() const { return seed_; }
 
-  /// Scales lamps and ambient light so that a horizontal plate at the median lit place gets `lux`.
+  /// Scales lamps and ambient light so that a horizontal plate at the median lit place gets `lux`. The lit places are the
+  /// surfaces below the lamps and 2 m around them.
+  /// @throws std::invalid_argument unless lux is finite and not negative.
   void set_light_level(double lux);
 
  private:
-  struct ModelDeleter { void operator()(mjModel_* model) const; };
-  struct DataDeleter { void operator()(mjData_* data) const; };
   World() = default;
 
-  std::unique_ptr<mjModel_, ModelDeleter> model_;
-  std::unique_ptr<mjData_, DataDeleter> data_;
+  MjModelPtr model_;
+  MjDataPtr data_;
   int rig_body_ = -1;
   std::vector<Material> materials_;
   std::vector<int> material_of_geom_;

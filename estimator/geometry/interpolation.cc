@@ -24,6 +24,10 @@ void PoseTrack::forget_before(std::int64_t stamp_ns) {
   while (poses_.size() > 2 && poses_[1].stamp_ns <= stamp_ns) poses_.pop_front();
 }
 
+void PoseTrack::premultiply(const Pose& left) {
+  for (Stamped& stamped : poses_) stamped.pose = left * stamped.pose;
+}
+
 Pose PoseTrack::at(std::int64_t stamp_ns) const {
   if (poses_.empty()) throw std::out_of_range("PoseTrack: empty");
   const auto after = std::lower_bound(poses_.begin(), poses_.end(), stamp_ns,

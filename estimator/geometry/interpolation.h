@@ -27,7 +27,8 @@ class PoseTrack {
   void push(std::int64_t stamp_ns, const Pose& pose);
   /// Drops what is not needed to read at or after stamp_ns.
   void forget_before(std::int64_t stamp_ns);
-  void clear() { poses_.clear(); }
+  /// Moves the whole track rigidly: every pose becomes left * pose.
+  void premultiply(const Pose& left);
 
   bool empty() const { return poses_.empty(); }
   std::size_t size() const { return poses_.size(); }

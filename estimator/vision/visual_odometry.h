@@ -16,7 +16,17 @@ struct VisionConfig {
   int grid_cols = 6;
   int features_per_cell = 10;
   double depth_max_age_s = 3.0;
-  double degeneracy_threshold = 0.0;  ///< on whitened J^T J; set from evidence
+
+  double pixel_sigma_px = 0.25;  ///< of a track from key-frame to now without image noise: interpolation, changing view
+  int min_features = 20;         ///< fewer tracks or inliers: nothing is solved
+  double min_inlier_share = 0.4;
+  /// On whitened J^T J. Rows are in units of their own noise, so an eigenvalue is one over a variance: 100 is 0.1 m.
+  double degeneracy_threshold = 100.0;
+
+  double keyframe_tracked_share = 0.6;  ///< fewer of the key-frame's features left: a new one
+  double keyframe_overlap = 0.7;
+  double keyframe_max_age_s = 1.0;
+  double keyframe_retry_s = 0.1;  ///< between looks for corners while there are none to be had
 };
 
 /// Key-frame visual odometry with depth from lidar, from triangulation, or none (thesis ch. 3 and 5.2): Harris corners,
@@ -36,13 +46,15 @@ class VisualOdometry {
   /// Tracks the features into a new image and solves for keyframe_from_body, the body's pose now in the body frame of
   /// the key-frame (right perturbations, in B now).
   /// @param prior  the IMU's prediction of keyframe_from_body, with its covariance
-  /// Without a key-frame, or with too few usable features, the result has no well-conditioned direction.
+  /// Without a key-frame, with too few usable features, or with an image whose size is not the calibration's, the
+  /// result has no well-conditioned direction and the pose is the prior's mean. Never throws on bad data.
   SolveResult process(const CameraFrame& frame, const PosePrior& keyframe_from_body);
 
   /// True when the newest image should become the key-frame: none yet, too many features lost, or little overlap.
   bool wants_keyframe() const;
 
-  /// Makes the newest image the key-frame: refills features per sub-region and gives them depth.
+  /// Makes the newest image the key-frame: refills features per sub-region and gives them depth. Without a usable
+  /// image it does nothing.
   /// @param world_from_body  the estimate at the newest image, in the world of add_depth_points
   void start_keyframe(const Pose& world_from_body);
 

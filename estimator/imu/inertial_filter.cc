@@ -1,0 +1,147 @@
+#include "estimator/imu/inertial_filter.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "estimator/geometry/interpolation.h"
+#include "estimator/geometry/so3.h"
+
+namespace plumbline {
+namespace {
+
+// Real units err by more than their white noise (scale, misalignment, aliasing of vibration).
+constexpr double kDensityMargin = 1.5;
+
+double squared(double x) { return x * x; }
+
+}  // namespace
+
+InertialFilter::InertialFilter(const InitialState& start, const ImuNoise& noise) : state_(start.state), noise_(noise) {
+  covariance_.block<3, 3>(kVelocity, kVelocity).diagonal().setConstant(squared(start.velocity_sigma));
+  covariance_.block<3, 3>(kGyroBias, kGyroBias).diagonal().setConstant(squared(start.gyro_bias_sigma));
+  // The world's z axis is where the mean force pointed. Where an accelerometer bias tilted it, gravity leans the other
+  // way in that world: bias across gravity and gravity's lean are one unknown until the body turns.
+  const double bias_variance = squared(noise.accel_turn_on_sigma);
+  const Eigen::Matrix3d world_from_body = state_.world_from_body.rotation.toRotationMatrix();
+  Eigen::Matrix<double, 2, 3> lean_from_bias = world_from_body.topRows<2>();
+  covariance_.block<3, 3>(kAccelBias, kAccelBias).diagonal().setConstant(bias_variance);
+  covariance_.block<2, 3>(kGravity, kAccelBias) = bias_variance * lean_from_bias;
+  covariance_.block<3, 2>(kAccelBias, kGravity) = bias_variance * lean_from_bias.transpose();
+  covariance_.block<2, 2>(kGravity, kGravity).diagonal().setConstant(
+      bias_variance + squared(start.tilt_sigma * kStandardGravity));
+  // The mean force's length also gave the bias along gravity.
+  const Eigen::Vector3d up_in_body = world_from_body.transpose().col(2);
+  const double known = std::max(0.0, bias_variance - squared(start.tilt_sigma * kStandardGravity));
+  covariance_.block<3, 3>(kAccelBias, kAccelBias) -= known * up_in_body * up_in_body.transpose();
+  set_keyframe(state_.world_from_body);
+}
+
+void InertialFilter::predict(const InertialSegment& segment) {
+  const double h = seconds_between(segment.start_ns, segment.end_ns);
+  if (h <= 0.0) return;
+  const Eigen::Vector3d rate = segment.rate - state_.gyro_bias;
+  const Eigen::Vector3d force = segment.force - state_.accel_bias;
+  const Eigen::Matrix3d r = state_.world_from_body.rotation.toRotationMatrix();
+  const NavigationState next = mechanize(state_, segment);
+  const Eigen::Matrix3d body_now_from_before =
+      (next.world_from_body.rotation.conjugate() * state_.world_from_body.rotation).toRotationMatrix();
+
+  // Transition of the error state without the key-frame, which rests.
+  constexpr int kMoving = kKeyframe;
+  Eigen::Matrix<double, kMoving, kMoving> f = Eigen::Matrix<double, kMoving, kMoving>::Identity();
+  f.block<3, 3>(kAttitude, kAttitude) = body_now_from_before;
+  f.block<3, 3>(kAttitude, kGyroBias) = -h * right_jacobian_so3(h * rate);
+  const Eigen::Matrix3d d_velocity_d_attitude = -h * r * skew(force);
+  f.block<3, 3>(kVelocity, kAttitude) = d_velocity_d_attitude;
+  f.block<3, 3>(kVelocity, kAccelBias) = -h * r;
+  f.block<3, 2>(kVelocity, kGravity) = h * Eigen::Matrix3d::Identity().leftCols<2>();
+  const Eigen::Matrix3d body_now_from_world = next.world_from_body.rotation.conjugate().toRotationMatrix();
+  f.block<3, 3>(kPosition, kPosition) = body_now_from_before;
+  f.block<3, 3>(kPosition, kAttitude) = 0.5 * h * body_now_from_world * d_velocity_d_attitude;
+  f.block<3, 3>(kPosition, kVelocity) = h * body_now_from_world;
+  f.block<3, 3>(kPosition, kAccelBias) = -0.5 * h * h * body_now_from_world * r;
+  f.block<3, 2>(kPosition, kGravity) = 0.5 * h * h * body_now_from_world.leftCols<2>();
+
+  auto moving = covariance_.topLeftCorner<kMoving, kMoving>();
+  moving = (f * moving * f.transpose()).eval();
+  auto cross = covariance_.topRightCorner<kMoving, 6>();
+  cross = (f * cross).eval();
+  covariance_.bottomLeftCorner<6, kMoving>() = cross.transpose();
+
+  const auto add_noise = [&](int block, double density) {
+    moving.block<3, 3>(block, block).diagonal().array() += squared(density) * h;
+  };
+  add_noise(kAttitude, kDensityMargin * noise_.gyro_density);
+  add_noise(kVelocity, kDensityMargin * noise_.accel_density);
+  add_noise(kGyroBias, noise_.gyro_random_walk);
+  add_noise(kAccelBias, noise_.accel_random_walk);
+  state_ = next;
+}
+
+void InertialFilter::update_pose(const SolveResult& solved, const Pose& predicted, double inflation) {
+  Jacobian d_pose_d_error = Jacobian::Zero();
+  d_pose_d_error.leftCols<6>().setIdentity();
+  update(solved, predicted, d_pose_d_error, inflation);
+}
+
+void InertialFilter::update_keyframe_motion(const SolveResult& solved, const Pose& predicted, double inflation) {
+  update(solved, predicted, keyframe_motion_jacobian(), inflation);
+}
+
+/// keyframe_from_body retracted by (-Ad(body_from_keyframe) keyframe error + body error).
+InertialFilter::Jacobian InertialFilter::keyframe_motion_jacobian() const {
+  Jacobian j = Jacobian::Zero();
+  j.leftCols<6>().setIdentity();
+  j.rightCols<6>() = -adjoint(state_.world_from_body.inverse() * world_from_keyframe_);
+  return j;
+}
+
+Matrix6d InertialFilter::keyframe_motion_covariance() const {
+  const Jacobian j = keyframe_motion_jacobian();
+  return j * covariance_ * j.transpose();
+}
+
+void InertialFilter::update(const SolveResult& solved, const Pose& predicted, const Jacobian& d_pose_d_error,
+                            double inflation) {
+  const int n = solved.spectrum.well_conditioned;
+  if (n == 0) return;
+  // The data's own solution within the well-conditioned directions, as a perturbation of the solved pose.
+  const Eigen::MatrixXd directions = solved.spectrum.eigenvectors.rightCols(n);
+  const Eigen::MatrixXd information = directions.transpose() * solved.information * directions;
+  const Eigen::LDLT<Eigen::MatrixXd> factor(information);
+  if (factor.info() != Eigen::Success || !factor.isPositive()) return;
+  const Eigen::VectorXd measured = -factor.solve(directions.transpose() * solved.gradient);
+  const Eigen::MatrixXd noise = inflation * factor.solve(Eigen::MatrixXd::Identity(n, n));
+  const Eigen::VectorXd innovation = measured - directions.transpose() * solved.pose.local(predicted);
+
+  const Eigen::MatrixXd h = directions.transpose() * d_pose_d_error;
+  const Eigen::MatrixXd covariance_ht = covariance_ * h.transpose();
+  const Eigen::MatrixXd innovation_covariance = h * covariance_ht + noise;
+  const Eigen::MatrixXd gain = innovation_covariance.ldlt().solve(covariance_ht.transpose()).transpose();
+  const ErrorState correction = gain * innovation;
+  if (!correction.allFinite()) return;
+  // Joseph's form keeps the covariance symmetric and positive.
+  const Covariance kept = Covariance::Identity() - gain * h;
+  covariance_ = (kept * covariance_ * kept.transpose() + gain * noise * gain.transpose()).eval();
+  apply(correction);
+}
+
+void InertialFilter::apply(const ErrorState& correction) {
+  state_.world_from_body = state_.world_from_body.retract(correction.segment<6>(kAttitude));
+  state_.velocity_in_world += correction.segment<3>(kVelocity);
+  state_.gyro_bias += correction.segment<3>(kGyroBias);
+  state_.accel_bias += correction.segment<3>(kAccelBias);
+  const Eigen::Vector2d lean = state_.gravity_in_world.head<2>() + correction.segment<2>(kGravity);
+  const double down = std::sqrt(std::max(0.0, squared(kStandardGravity) - lean.squaredNorm()));
+  state_.gravity_in_world << lean, -down;
+  world_from_keyframe_ = world_from_keyframe_.retract(correction.segment<6>(kKeyframe));
+}
+
+void InertialFilter::set_keyframe(const Pose& world_from_body) {
+  world_from_keyframe_ = world_from_body;
+  covariance_.rightCols<6>() = covariance_.leftCols<6>().eval();
+  covariance_.bottomRows<6>() = covariance_.topRows<6>().eval();
+}
+
+}  // namespace plumbline

@@ -1,0 +1,165 @@
+#include "estimator/vision/feature_tracker.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/video/tracking.hpp>
+
+namespace plumbline {
+namespace {
+
+constexpr int kWindow = 15;        // [px]
+constexpr int kTopLevel = 2;       // three levels: a prediction may err by some 25 px
+constexpr int kPatchRadius = 5;    // [px] of the patch that is compared after tracking
+constexpr int kGainRadius = 4;     // [px] of the boxes whose brightness is compared before tracking
+constexpr float kBorder = 8.0F;    // [px]: half the window
+constexpr double kMaxGain = 4.0;
+/// Least normalised correlation of a patch with its anchor. Noise that buried a patch scores near 0, a corner at the
+/// detection threshold 0.8, a patch stretched by a tenth still 0.9.
+constexpr double kLeastCorrelation = 0.7;
+
+bool inside(const cv::Mat& image, float x, float y, float border) {
+  return x >= border && y >= border && x < static_cast<float>(image.cols) - border - 1.0F &&
+         y < static_cast<float>(image.rows) - border - 1.0F;
+}
+
+double box_mean(const cv::Mat& image, int x, int y) {
+  int sum = 0;
+  for (int v = y - kGainRadius; v <= y + kGainRadius; ++v) {
+    const std::uint8_t* row = image.ptr<std::uint8_t>(v);
+    for (int u = x - kGainRadius; u <= x + kGainRadius; ++u) sum += row[u];
+  }
+  return static_cast<double>(sum) / ((2 * kGainRadius + 1) * (2 * kGainRadius + 1));
+}
+
+constexpr int kPatchSide = 2 * kPatchRadius + 1;
+using Patch = std::array<float, static_cast<std::size_t>(kPatchSide) * kPatchSide>;
+
+void read_patch(const cv::Mat& image, const cv::Point2f& centre, Patch& patch) {
+  const int x0 = static_cast<int>(centre.x);
+  const int y0 = static_cast<int>(centre.y);
+  const float a = centre.x - static_cast<float>(x0);
+  const float b = centre.y - static_cast<float>(y0);
+  std::size_t i = 0;
+  for (int v = y0 - kPatchRadius; v <= y0 + kPatchRadius; ++v) {
+    const std::uint8_t* upper = image.ptr<std::uint8_t>(v);
+    const std::uint8_t* lower = image.ptr<std::uint8_t>(v + 1);
+    for (int u = x0 - kPatchRadius; u <= x0 + kPatchRadius; ++u) {
+      patch[i++] = (1.0F - b) * ((1.0F - a) * static_cast<float>(upper[u]) + a * static_cast<float>(upper[u + 1])) +
+                   b * ((1.0F - a) * static_cast<float>(lower[u]) + a * static_cast<float>(lower[u + 1]));
+    }
+  }
+}
+
+/// Zero-mean normalised cross-correlation; blind to brightness and contrast.
+double correlation(const Patch& p, const Patch& q) {
+  double sum_p = 0.0;
+  double sum_q = 0.0;
+  double sum_pp = 0.0;
+  double sum_qq = 0.0;
+  double sum_pq = 0.0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const auto x = static_cast<double>(p[i]);
+    const auto y = static_cast<double>(q[i]);
+    sum_p += x;
+    sum_q += y;
+    sum_pp += x * x;
+    sum_qq += y * y;
+    sum_pq += x * y;
+  }
+  const auto n = static_cast<double>(p.size());
+  const double variances = (sum_pp - sum_p * sum_p / n) * (sum_qq - sum_q * sum_q / n);
+  return variances > 0.0 ? (sum_pq - sum_p * sum_q / n) / std::sqrt(variances) : 0.0;
+}
+
+}  // namespace
+
+struct FeatureTracker::Impl {
+  cv::Mat newest;         // as it came
+  cv::Mat newest_scaled;  // brought to the anchor's exposure
+  cv::Mat anchor;
+  std::vector<cv::Mat> anchor_pyramid;  // with derivatives, kept as long as the anchor
+  std::vector<cv::Mat> newest_pyramid;
+  std::vector<cv::Point2f> from;
+  std::vector<cv::Point2f> to;
+  std::vector<std::uint8_t> status;
+  std::vector<double> ratios;
+
+  double exposure_ratio();
+  bool looks_like_its_anchor(const cv::Point2f& anchor_pixel, const cv::Point2f& pixel) const;
+};
+
+FeatureTracker::FeatureTracker() : impl_(std::make_unique<Impl>()) {}
+FeatureTracker::FeatureTracker(FeatureTracker&&) noexcept = default;
+FeatureTracker& FeatureTracker::operator=(FeatureTracker&&) noexcept = default;
+FeatureTracker::~FeatureTracker() = default;
+
+void FeatureTracker::set_image(const CameraFrame& frame) {
+  cv::Mat(frame.height, frame.width, CV_8UC1, const_cast<std::uint8_t*>(frame.pixels.data())).copyTo(impl_->newest);
+}
+
+GreyView FeatureTracker::image() const {
+  const cv::Mat& m = impl_->newest;
+  return {m.data, m.cols, m.rows, static_cast<int>(m.step)};
+}
+
+void FeatureTracker::anchor_here() {
+  impl_->newest.copyTo(impl_->anchor);
+  cv::buildOpticalFlowPyramid(impl_->anchor, impl_->anchor_pyramid, cv::Size(kWindow, kWindow), kTopLevel, true);
+}
+
+/// Anchor's over newest image's exposure, from the brightness where the features are expected. The tracker assumes
+/// constant brightness, and auto exposure moves every corner it scales: by up to a pixel for a fifth of change.
+double FeatureTracker::Impl::exposure_ratio() {
+  ratios.clear();
+  constexpr float kReach = kGainRadius + 1.0F;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    if (!inside(anchor, from[i].x, from[i].y, kReach) || !inside(newest, to[i].x, to[i].y, kReach)) continue;
+    const double now = box_mean(newest, static_cast<int>(to[i].x), static_cast<int>(to[i].y));
+    const double then = box_mean(anchor, static_cast<int>(from[i].x), static_cast<int>(from[i].y));
+    if (now > 1.0) ratios.push_back(then / now);
+  }
+  if (ratios.empty()) return 1.0;
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  return std::clamp(*middle, 1.0 / kMaxGain, kMaxGain);
+}
+
+bool FeatureTracker::Impl::looks_like_its_anchor(const cv::Point2f& anchor_pixel, const cv::Point2f& pixel) const {
+  if (!inside(newest, pixel.x, pixel.y, kBorder) || !inside(anchor, anchor_pixel.x, anchor_pixel.y, kBorder)) {
+    return false;
+  }
+  Patch then;
+  Patch now;
+  read_patch(anchor, anchor_pixel, then);
+  read_patch(newest, pixel, now);
+  return correlation(then, now) > kLeastCorrelation;
+}
+
+FeatureTracker::Tracks FeatureTracker::track(const std::vector<Eigen::Vector2f>& anchor_pixels,
+                                             const std::vector<Eigen::Vector2f>& predicted) {
+  Impl& m = *impl_;
+  Tracks tracks;
+  if (anchor_pixels.empty() || m.anchor_pyramid.empty()) return tracks;
+  m.from.clear();
+  m.to.clear();
+  for (const auto& p : anchor_pixels) m.from.emplace_back(p.x(), p.y());
+  for (const auto& p : predicted) m.to.emplace_back(p.x(), p.y());
+
+  m.newest.convertTo(m.newest_scaled, CV_8U, m.exposure_ratio());
+  const cv::Size window(kWindow, kWindow);
+  cv::buildOpticalFlowPyramid(m.newest_scaled, m.newest_pyramid, window, kTopLevel, false);
+  const cv::TermCriteria stop(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 20, 0.02);
+  cv::calcOpticalFlowPyrLK(m.anchor_pyramid, m.newest_pyramid, m.from, m.to, m.status, cv::noArray(), window, kTopLevel,
+                           stop, cv::OPTFLOW_USE_INITIAL_FLOW);
+  tracks.pixels.reserve(m.to.size());
+  tracks.found.reserve(m.to.size());
+  for (std::size_t i = 0; i < m.to.size(); ++i) {
+    tracks.pixels.emplace_back(m.to[i].x, m.to[i].y);
+    tracks.found.push_back(m.status[i] != 0 && m.looks_like_its_anchor(m.from[i], m.to[i]) ? 1 : 0);
+  }
+  return tracks;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,94 @@
+#include "sim/trajectory.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "estimator/geometry/so3.h"
+#include "sim/motion.h"
+#include "tests/support/aggressive_motion.h"
+
+namespace plumbline {
+namespace {
+
+TEST(Trajectory, VelocityAndAccelerationAreTheDerivativesOfPosition) {
+  const Trajectory trajectory = make_trajectory(testing::aggressive_motion(), 1);
+  const double h = 1e-4;
+  for (double t = 3.0013; t < 20.0; t += 0.7131) {
+    const MotionState before = trajectory.at_seconds(t - h);
+    const MotionState now = trajectory.at_seconds(t);
+    const MotionState after = trajectory.at_seconds(t + h);
+    // Central differences of a cubic err by h^2 / 6 times its third derivative, here below 1e-5.
+    EXPECT_LT(((after.world_from_body.translation - before.world_from_body.translation) / (2 * h) -
+               now.velocity_in_world).norm(), 1e-4);
+    EXPECT_LT(((after.velocity_in_world - before.velocity_in_world) / (2 * h) - now.acceleration_in_world).norm(), 1e-2);
+  }
+}
+
+TEST(Trajectory, AngularRateIsTheDerivativeOfAttitude) {
+  const Trajectory trajectory = make_trajectory(testing::aggressive_motion(), 1);
+  const double h = 1e-4;
+  for (double t = 3.0013; t < 20.0; t += 0.7131) {
+    const MotionState before = trajectory.at_seconds(t - h);
+    const MotionState now = trajectory.at_seconds(t);
+    const MotionState after = trajectory.at_seconds(t + h);
+    const Eigen::Vector3d rate =
+        log_so3(before.world_from_body.rotation.conjugate() * after.world_from_body.rotation) / (2 * h);
+    EXPECT_LT((rate - now.angular_rate_in_body).norm(), 1e-4);
+    EXPECT_LT(((after.angular_rate_in_body - before.angular_rate_in_body) / (2 * h) -
+               now.angular_acceleration_in_body).norm(), 0.05);
+  }
+}
+
+TEST(Trajectory, RejectsTooFewPosesAndStampsThatDoNotIncrease) {
+  EXPECT_THROW(Trajectory({{0, {}}, {1, {}}}), std::invalid_argument);
+  EXPECT_THROW(Trajectory({{0, {}}, {2, {}}, {2, {}}, {3, {}}}), std::invalid_argument);
+}
+
+TEST(Motion, StartsWithATrueRest) {
+  const Trajectory trajectory = make_trajectory(testing::aggressive_motion(), 1);
+  for (double t = 0.1; t < 2.0; t += 0.1) {
+    const MotionState s = trajectory.at_seconds(t);
+    // The spline's ringing before the first motion falls by 0.27 a knot.
+    EXPECT_LT(s.velocity_in_world.norm(), 1e-6) << t;
+    EXPECT_LT(s.angular_rate_in_body.norm(), 1e-6) << t;
+  }
+}
+
+TEST(Motion, KeepsToTheLegsBetweenWaypoints) {
+  MotionConfig config;
+  config.waypoints = {{{0, 0, 1.5}}, {{10, 0, 1.5}}, {{10, 10, 1.5}}};
+  config.speed_mps = 1.5;
+  const Trajectory trajectory = make_trajectory(config, 1);
+  const double end_s = static_cast<double>(trajectory.end_ns()) * 1e-9;
+  for (double t = 0.0; t < end_s; t += 0.05) {
+    const Eigen::Vector3d p = trajectory.at_seconds(t).world_from_body.translation;
+    const double to_first = std::hypot(std::max(0.0, p.x() - 10.0), p.y());
+    const double to_second = std::hypot(p.x() - 10.0, std::max(0.0, -p.y()));
+    // A 90 degree corner is cut by at most speed times a quarter of the smoothing time.
+    EXPECT_LT(std::min(to_first, to_second), 0.45) << t;
+    EXPECT_NEAR(p.z(), 1.5, 1e-9);
+  }
+  EXPECT_LT((trajectory.pose(trajectory.end_ns()).translation - Eigen::Vector3d(10, 10, 1.5)).norm(), 1e-6);
+}
+
+TEST(Motion, SpeedFactorShortensTheDriveOnly) {
+  MotionConfig config;
+  config.waypoints = {{{0, 0, 1}}, {{30, 0, 1}}};
+  const double slow = static_cast<double>(make_trajectory(config, 1).end_ns());
+  config.speed_factor = 2.0;
+  const double fast = static_cast<double>(make_trajectory(config, 1).end_ns());
+  const double still = (2.0 + 2.0 * 1.2) * 1e9;  // the rest and the smoothing at both ends do not scale
+  EXPECT_NEAR((slow - still) / (fast - still), 2.0, 0.02);
+}
+
+TEST(Motion, SaysWhatIsWrong) {
+  MotionConfig config;
+  config.waypoints = {{{0, 0, 1}}};
+  EXPECT_THROW(make_trajectory(config, 1), std::invalid_argument);
+  config.waypoints = {{{0, 0, 1}}, {{0, 0, 1}}};
+  EXPECT_THROW(make_trajectory(config, 1), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace plumbline

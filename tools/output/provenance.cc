@@ -1,0 +1,68 @@
+#include "tools/output/provenance.h"
+
+#include <sys/utsname.h>
+
+#include <fstream>
+#include <thread>
+
+#include "tools/output/build_info.h"
+
+namespace plumbline {
+namespace {
+
+/// The value of the first "key<separator>value" line of a system file, without quotes; empty when there is none.
+std::string value_in(const char* path, const std::string& key, char separator) {
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    if (line.compare(0, key.size(), key) != 0) continue;
+    const auto at = line.find(separator);
+    if (at == std::string::npos) continue;
+    const auto start = line.find_first_not_of(" \t\"", at + 1);
+    if (start == std::string::npos) return {};
+    return line.substr(start, line.find_last_not_of(" \t\"") - start + 1);
+  }
+  return {};
+}
+
+std::string operating_system() {
+  std::string text = value_in("/etc/os-release", "PRETTY_NAME", '=');
+  utsname system{};
+  if (uname(&system) == 0) {
+    if (!text.empty()) text += ", ";
+    text += std::string(system.sysname) + " " + system.release + " " + system.machine;
+  }
+  return text;
+}
+
+}  // namespace
+
+Provenance make_provenance(const Scenario& scenario, int threads) {
+  Provenance provenance;
+  provenance.version = kVersion;
+  provenance.git_commit = kGitCommit;
+  provenance.scenario = scenario.name;
+  provenance.scenario_path = scenario.path.string();
+  provenance.scenario_digest = scenario.digest;
+  provenance.seed = scenario.seed;
+  provenance.estimator = scenario.estimator_name;
+  provenance.threads = threads;
+  provenance.cpu = value_in("/proc/cpuinfo", "model name", ':');
+  provenance.cores = std::thread::hardware_concurrency();
+  provenance.os = operating_system();
+  return provenance;
+}
+
+std::vector<std::pair<std::string, std::string>> provenance_rows(const Provenance& p) {
+  return {
+      {"Plumbline", p.version + (p.git_commit.empty() ? "" : " (" + p.git_commit + ")")},
+      {"Scenario", p.scenario_path},
+      {"Digest", p.scenario_digest},
+      {"Seed", std::to_string(p.seed)},
+      {"Estimator", p.estimator},
+      {"Threads", std::to_string(p.threads)},
+      {"Processor", p.cpu + ", " + std::to_string(p.cores) + " cores"},
+      {"System", p.os},
+  };
+}
+
+}  // namespace plumbline

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scenarios/scenario.h"
+
+namespace plumbline {
+
+/// What a figure must be seen with to mean something later.
+struct Provenance {
+  std::string version;
+  std::string git_commit;  ///< empty when unknown
+  std::string scenario;
+  std::string scenario_path;
+  std::string scenario_digest;
+  std::uint64_t seed = 0;
+  std::string estimator;
+  int threads = 0;
+  std::string cpu;
+  unsigned cores = 0;
+  std::string os;
+};
+
+Provenance make_provenance(const Scenario& scenario, int threads);
+
+/// For tables: what it is called, and what it is.
+std::vector<std::pair<std::string, std::string>> provenance_rows(const Provenance& provenance);
+
+}  // namespace plumbline

@@ -1,0 +1,154 @@
+#include "tools/report/run_report.h"
+
+#include "tools/formats/number_text.h"
+#include "tools/report/camera_picture.h"
+#include "tools/report/map_picture.h"
+#include "tools/report/markup.h"
+#include "tools/report/page_style.h"
+#include "tools/report/run_charts.h"
+
+namespace plumbline {
+namespace {
+
+std::string heading(const std::string& title, const std::string& note) {
+  return "<h2>" + escape_markup(title) + "</h2><p class=\"note\">" + escape_markup(note) + "</p>";
+}
+
+std::string shown(const std::optional<double>& value) { return value ? readable_text(*value) : "–"; }
+
+std::string tile(const std::string& name, const std::optional<double>& value, const std::string& unit) {
+  return "<div class=\"tile\"><span>" + escape_markup(name) + "</span><b>" + shown(value) +
+         (value ? " <small>" + escape_markup(unit) + "</small>" : "") + "</b></div>";
+}
+
+std::string title_block(const RunReport& report) {
+  const std::string status = to_string(report.verdict.status);
+  return "<header><h1>" + escape_markup(report.scenario.name) + "</h1><span class=\"badge " + status + "\">" + status +
+         "</span><span class=\"sub\">" + escape_markup(report.provenance.estimator) + ", seed " +
+         std::to_string(report.provenance.seed) + "</span></header>";
+}
+
+std::string tiles(const RunFigures& figures) {
+  const TrajectoryFigures& t = figures.trajectory;
+  const auto degrees = t.ape ? std::optional(t.ape->rotation_deg) : std::nullopt;
+  const auto metres = t.ape ? std::optional(t.ape->translation_m) : std::nullopt;
+  return "<div class=\"tiles\">" + tile("Drift", t.drift_percent, "%") + tile("Progress", t.progress.whole, "× true") +
+         tile("Progress, worst 5 s", t.progress.worst_5s, "× true") + tile("Position error, rms", metres, "m") +
+         tile("Attitude error, rms", degrees, "°") + tile("Map error, rms", figures.map.rmse_m, "m") +
+         tile("Distance", t.distance_m, "m") + tile("Duration", t.duration_s, "s") +
+         tile("Speed", figures.real_time_factor, "× real time") + "</div>";
+}
+
+std::string list_item(bool holds, const std::string& text) {
+  return std::string("<li class=\"") + (holds ? "held" : "broken") + "\">" + (holds ? "✓ " : "✗ ") +
+         escape_markup(text) + "</li>";
+}
+
+std::string checks(const RunReport& report) {
+  std::string items;
+  if (!report.record.fault.empty()) items += list_item(false, "The run ended early: " + report.record.fault);
+  if (report.record.estimator_lost) items += list_item(false, "The estimator says that it is lost");
+  if (const auto since = report.figures.trajectory.lost_since_s) {
+    items += list_item(false, "Since " + readable_text(*since) +
+                                  " s the position error exceeds 1 m + 10 % of the distance travelled");
+  }
+  for (const Check& check : report.verdict.checks) items += list_item(check.holds, describe(check));
+  if (const auto& expected = report.verdict.expected_status) {
+    const bool met = *expected == to_string(report.verdict.status);
+    items += list_item(met, "status = " + to_string(report.verdict.status) + ", expected " + *expected);
+  }
+  return items.empty() ? "" : "<ul class=\"checks\">" + items + "</ul>";
+}
+
+std::string map_section(const RunReport& report) {
+  const TrajectoryFigures& t = report.figures.trajectory;
+  const Pose& truth_from_estimate = t.drift_alignment.truth_from_estimate;
+  return heading("Path and map",
+                 "The estimate and the map it built, laid over the truth by the first second of motion alone, so that "
+                 "what is off further on is drift.") +
+         "<div class=\"legend\"><span><i class=\"truth\"></i>true path</span><span><i class=\"estimate\"></i>estimate"
+         "</span><span><i style=\"--hue:#808080\"></i>mapped points</span></div>" +
+         map_picture(MapView::kTop, t.aligned, report.record.map, truth_from_estimate) +
+         map_picture(MapView::kSide, t.aligned, report.record.map, truth_from_estimate);
+}
+
+std::string degeneracy_section(const RunRecord& record) {
+  const std::string charts = eigenvalue_chart(record, Module::kVision, "Visual-inertial odometry") +
+                             eigenvalue_chart(record, Module::kLidar, "Scan matching");
+  if (charts.empty()) return {};
+  return heading("Degeneracy",
+                 "Eigenvalues of each module's data. Directions below the threshold are marked: there the module is "
+                 "by-passed and the coarser prediction stands.") +
+         "<div class=\"pair\">" + charts + "</div>";
+}
+
+std::string camera_section(const RunRecord& record) {
+  std::string pictures;
+  for (const FrameSnapshot& snapshot : record.snapshots) {
+    const std::int64_t start_ns = record.ground_truth.empty() ? 0 : record.ground_truth.front().stamp_ns;
+    pictures += camera_picture(snapshot, start_ns);
+  }
+  if (pictures.empty()) return {};
+  return heading("Camera", "What the estimator saw and tracked; lines lead to where the key-frame saw each feature.") +
+         camera_legend() + "<div class=\"triple\">" + pictures + "</div>";
+}
+
+std::string message_table(const RunFigures& figures) {
+  std::string html =
+      "<div class=\"card scroll\"><table><tr><th>messages</th><th class=\"number\">produced</th><th class=\"number\">used"
+      "</th><th>dropped</th></tr>";
+  for (const auto& [module, tally] : figures.messages) {
+    std::string dropped;
+    for (const auto& [reason, count] : tally.dropped) {
+      dropped += (dropped.empty() ? "" : ", ") + std::to_string(count) + " " + reason;
+    }
+    html += "<tr><td>" + message_key(module) + "</td><td class=\"number\">" + std::to_string(tally.produced) +
+            "</td><td class=\"number\">" + std::to_string(tally.used) + "</td><td>" +
+            escape_markup(dropped.empty() ? "none" : dropped) + "</td></tr>";
+  }
+  return html + "</table></div>";
+}
+
+std::string cost_section(const RunFigures& figures) {
+  return heading("Time and messages", "Processing time per message: mean as a bar, 95th percentile as a whisker.") +
+         "<div class=\"pair\">" + timing_chart(figures) + message_table(figures) + "</div>";
+}
+
+std::string figure_table(const RunFigures& figures) {
+  std::string rows;
+  for (const Figure& figure : figure_list(figures)) {
+    const std::string value = !figure.value       ? "null"
+                              : figure.is_count ? fixed_text(*figure.value, 0)
+                                                : readable_text(*figure.value);
+    rows += "<tr><td>" + escape_markup(figure.key) + "</td><td class=\"number\">" + value + "</td></tr>";
+  }
+  return heading("All figures", "As in result.json.") + "<div class=\"card columns\"><table>" + rows + "</table></div>";
+}
+
+std::string provenance_section(const RunReport& report) {
+  std::string rows;
+  for (const auto& [name, value] : provenance_rows(report.provenance)) {
+    rows += "<tr><th>" + escape_markup(name) + "</th><td>" + escape_markup(value) + "</td></tr>";
+  }
+  return heading("Provenance", "Same scenario, seed, program and machine give the same trajectory, byte for byte.") +
+         "<div class=\"card\"><table>" + rows + "</table><details><summary>Resolved scenario</summary><pre>" +
+         escape_markup(report.scenario.resolved_yaml) + "</pre></details></div>";
+}
+
+}  // namespace
+
+std::string report_html(const RunReport& report) {
+  const RunRecord& record = report.record;
+  return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+         "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>" +
+         escape_markup(report.scenario.name) + " – Plumbline</title><style>" + kPageStyle + "</style></head><body><main>" +
+         title_block(report) + tiles(report.figures) + checks(report) + map_section(report) +
+         heading("Error over time", "In the true body's axes: forward, left, up.") + "<div class=\"pair\">" +
+         error_charts(record, report.figures.trajectory) + "</div>" + degeneracy_section(record) +
+         heading("Scan matching's corrections", "What each registration changed of the prediction it started from.") +
+         "<div class=\"pair\">" + correction_charts(record) + "</div>" + camera_section(record) +
+         cost_section(report.figures) + figure_table(report.figures) + provenance_section(report) +
+         "</main></body></html>\n";
+}
+
+}  // namespace plumbline
