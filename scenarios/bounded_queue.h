@@ -7,8 +7,8 @@
 
 namespace plumbline {
 
-/// A queue of pointers between one producer and one consumer thread. The producer waits while it is full; either side may leave at
-/// any time without the other waiting for ever.
+/// A queue of pointers between one producer and one consumer thread. The producer waits while it is full; either side
+/// may leave at any time without the other waiting for ever.
 template <typename T>
 class BoundedQueue {
  public:

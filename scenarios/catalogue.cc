@@ -80,6 +80,7 @@ LidarModel catalogue_lidar(const std::string& name) {
     reader.read("rate_hz", model.rate_hz, {1.0, 100.0});
     reader.read("min_range_m", model.min_range_m, {0.01, 10.0});
     reader.read("max_range_m", model.max_range_m, {1.0, 1000.0});
+    reader.read("range_at_10_percent_m", model.range_at_10_percent_m, {1.0, 1000.0});
     reader.read("range_sigma_m", model.range_sigma_m, {0.0, 1.0});
     reader.read("range_resolution_m", model.range_resolution_m, {0.0, 1.0});
     reader.read("ring_bias_sigma_m", model.ring_bias_sigma_m, {0.0, 1.0});
@@ -98,6 +99,9 @@ CameraModel catalogue_camera(const std::string& name) {
     reader.read("electrons_per_dn", model.electrons_per_dn, {0.1, 1e4});
     reader.read("read_noise_electrons", model.read_noise_electrons, {0.0, 1e4});
     reader.read("full_well_electrons", model.full_well_electrons, {100.0, 1e7});
+    reader.read("f_number", model.f_number, {0.5, 64.0});
+    reader.read("electrons_per_lux_second", model.electrons_per_lux_second, {1.0, 1e8});
+    reader.read("black_level_dn", model.black_level_dn, {0.0, 100.0});
     read_scaled(reader, "min_exposure_us", kMicro, model.min_exposure_s, {1.0, 1e6});
     read_scaled(reader, "max_exposure_ms", kMilli, model.max_exposure_s, {0.01, 1e4});
     reader.read("max_gain", model.max_gain, {1.0, 100.0});

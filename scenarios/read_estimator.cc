@@ -41,8 +41,9 @@ void read_estimator(ConfigReader& reader, std::string& name, EstimatorConfig& co
 }
 
 void read_expect(ConfigReader& reader, std::vector<Expectation>& expect, std::optional<std::string>& status) {
+  static const std::vector<std::string> kStatuses{"ok", "failed", "lost", "error"};
   std::size_t index = 0;
-  if (reader.read_choice("status", {"ok"}, index)) status = "ok";
+  if (reader.read_choice("status", kStatuses, index)) status = kStatuses[index];
   for (const auto& figure : result_figures()) {
     reader.section(figure, [&](ConfigReader& bounds) { expect.push_back(read_bounds(bounds, figure)); });
   }

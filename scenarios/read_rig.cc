@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "scenarios/catalogue.h"
 #include "scenarios/input_error.h"
 #include "scenarios/schema.h"
@@ -69,6 +71,7 @@ void read_camera(ConfigReader& reader, RigConfig& config) {
   config.pack_from_camera.rotation = config.pack_from_camera.rotation * body_from_optical_rotation();
   read_model(reader, "camera", catalogue_camera, config.camera);
   reader.read("rate_hz", config.camera.rate_hz, kCameraRate_hz);
+  config.camera.max_exposure_s = std::min(config.camera.max_exposure_s, 1.0 / config.camera.rate_hz);
   reader.read("width", config.camera.width, kPixels);
   reader.read("height", config.camera.height, kPixels);
   reader.read("noise", config.camera_noise);

@@ -13,14 +13,13 @@ constexpr std::array<double, 3> kSnapshotShares{1.0 / 6.0, 1.0 / 2.0, 5.0 / 6.0}
 
 template <typename Call>
 double Recorder::guarded(Call call) {
-  if (faulted()) return 0.0;
   const auto start = std::chrono::steady_clock::now();
   try {
     call();
   } catch (const std::exception& error) {
-    record_.fault = std::string("the estimator threw: ") + error.what();
+    set_fault(std::string("the estimator threw: ") + error.what());
   } catch (...) {
-    record_.fault = "the estimator threw something that is no std::exception";
+    set_fault("the estimator threw something that is no std::exception");
   }
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   record_.estimator_wall_s += wall.count();
@@ -29,6 +28,7 @@ double Recorder::guarded(Call call) {
 
 template <typename Message>
 void Recorder::add(Module module, std::int64_t stamp_ns, const Message& message) {
+  if (faulted()) return;
   ++record_.messages[module].produced;
   const double wall_s = guarded([&] { estimator_.add(message); });
   record_.timing.push_back({stamp_ns, module, wall_s});
@@ -51,6 +51,7 @@ void Recorder::add_truth(std::int64_t stamp_ns, const Pose& world_from_body) {
 }
 
 void Recorder::take() {
+  if (faulted()) return;
   std::vector<Odometry> outputs;
   guarded([&] { outputs = estimator_.take(); });
   for (auto& output : outputs) {
@@ -64,7 +65,7 @@ void Recorder::take() {
 
 void Recorder::take_snapshot(const CameraFrame& frame) {
   const std::size_t taken = record_.snapshots.size();
-  if (taken == kSnapshotShares.size()) return;
+  if (faulted() || taken == kSnapshotShares.size()) return;
   if (static_cast<double>(frame.stamp_ns) < kSnapshotShares[taken] * static_cast<double>(duration_ns_)) return;
   FrameSnapshot snapshot{frame, {}};
   guarded([&] { snapshot.features = estimator_.features(); });
@@ -80,6 +81,7 @@ RunRecord Recorder::finish() {
     }
     record_.map = estimator_.map();
   });
+  if (interrupted_ && !faulted()) record_.fault = "interrupted";
   return std::move(record_);
 }
 

@@ -19,6 +19,9 @@ class Recorder {
   void add_truth(std::int64_t stamp_ns, const Pose& world_from_body);
   void add_sensors_wall(double wall_s) { record_.sensors_wall_s += wall_s; }
 
+  /// Marks the record as ended before its time.
+  void interrupt() { interrupted_ = true; }
+
   bool faulted() const { return !record_.fault.empty(); }
   /// The record, completed by the estimator's counts and map. The recorder is used up.
   RunRecord finish();
@@ -34,6 +37,7 @@ class Recorder {
 
   Estimator& estimator_;
   std::int64_t duration_ns_ = 0;
+  bool interrupted_ = false;
   RunRecord record_;
 };
 

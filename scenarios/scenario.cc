@@ -44,9 +44,7 @@ void read_scenario(ConfigReader& reader, Scenario& scenario) {
   reader.section("estimator", [&](ConfigReader& estimator) {
     read_estimator(estimator, scenario.estimator_name, scenario.estimator);
   });
-  reader.section("expect", [&](ConfigReader& expect) {
-    read_expect(expect, scenario.expect, scenario.expect_status);
-  });
+  reader.section("expect", [&](ConfigReader& expect) { read_expect(expect, scenario.expect, scenario.expect_status); });
   reader.finish();
 }
 

@@ -19,10 +19,10 @@
 namespace plumbline {
 
 struct WorldConfig {
-  std::string scene = "garage";        ///< a name of scene_library(), or empty with `mjcf` set
-  std::filesystem::path mjcf;          ///< a user's MJCF
+  std::string scene = "garage";  ///< a name of scene_library(), or empty with `mjcf` set
+  std::filesystem::path mjcf;    ///< a user's MJCF
   SceneValues parameters;
-  std::optional<std::uint64_t> seed;   ///< otherwise the scenario's
+  std::optional<std::uint64_t> seed;  ///< otherwise the scenario's
   double light_lux = 200.0;
   std::vector<LightStep> light_schedule;  ///< in time order
 };
@@ -55,10 +55,10 @@ struct RigConfig {
 
 /// One scenario file, composed of the folders' own configs, everything checked.
 struct Scenario {
-  std::string name;                 ///< the file's stem
+  std::string name;  ///< the file's stem
   std::filesystem::path path;
-  std::string digest;               ///< of the resolved keys, for provenance
-  std::string resolved_yaml;        ///< all keys after base, file and --set
+  std::string digest;         ///< of the resolved keys, for provenance
+  std::string resolved_yaml;  ///< all keys after base, file and --set
   std::uint64_t seed = 1;
   WorldConfig world;
   MotionConfig motion;

@@ -7,8 +7,8 @@
 #include "scenarios/config_reader.h"
 #include "scenarios/scenario.h"
 
-/// The keys of a scenario file, a function per section. Each leaves the default where the file says nothing; each throws
-/// InputError.
+/// The keys of a scenario file, a function per section. Each leaves the default where the file says nothing; each
+/// throws InputError.
 namespace plumbline {
 
 void read_world(ConfigReader& reader, WorldConfig& config);

@@ -148,8 +148,7 @@ MessageSource make_source(const Scenario& scenario, const World& world, const Ra
 
 MessageSource make_read_ahead_source(const Scenario& scenario, const World& world, const RayScene& rays,
                                      const Trajectory& world_from_body) {
-  const auto ahead =
-      std::make_shared<ReadAhead>([&] { return make_source(scenario, world, rays, world_from_body); });
+  const auto ahead = std::make_shared<ReadAhead>([&] { return make_source(scenario, world, rays, world_from_body); });
   return [ahead] { return ahead->next(); };
 }
 

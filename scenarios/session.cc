@@ -59,7 +59,8 @@ void run(const Scenario& scenario, const Trajectory& world_from_body, MessageSou
     const ImuSample sample = imu.sample(world_from_body, stamp_ns);
     if (k % scenario.rig.decimation == 0) recorder.deliver(sample);
     if (options.progress && k % samples_per_report == 0) {
-      options.progress(static_cast<double>(k) / static_cast<double>(samples));
+      const bool go_on = options.progress(static_cast<double>(k) / static_cast<double>(samples));
+      if (!go_on) return recorder.interrupt();
     }
   }
   others.up_to(world_from_body.end_ns() + 1);

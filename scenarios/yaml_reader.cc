@@ -54,7 +54,8 @@ class Converter {
 
   void check_tag(const YAML::Node& node) const {
     const std::string& tag = node.Tag();
-    if (!tag.empty() && tag != "?" && tag != "!") fail(node.Mark(), "found the tag '" + tag + "', tags are not allowed");
+    if (!tag.empty() && tag != "?" && tag != "!")
+      fail(node.Mark(), "found the tag '" + tag + "', tags are not allowed");
   }
 
   std::string place(const YAML::Mark& mark) const {
