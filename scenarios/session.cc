@@ -44,8 +44,8 @@ class Delivery {
   std::unique_ptr<SensorMessage> next_;
 };
 
-void run(const Scenario& scenario, const Trajectory& world_from_body, MessageSource source,
-         const SessionOptions& options, Recorder& recorder) {
+void run(const Scenario& scenario, const Trajectory& world_from_body, MessageSource source, const SessionOptions& options,
+         Recorder& recorder) {
   Imu imu(scenario.rig.imu, scenario.seed);
   imu.noise_enabled = scenario.rig.imu_noise;
   Delivery others(std::move(source), recorder);
@@ -58,9 +58,9 @@ void run(const Scenario& scenario, const Trajectory& world_from_body, MessageSou
     recorder.add_truth(stamp_ns, world_from_body.pose(stamp_ns));
     const ImuSample sample = imu.sample(world_from_body, stamp_ns);
     if (k % scenario.rig.decimation == 0) recorder.deliver(sample);
-    const bool reports = options.progress && k % samples_per_report == 0;
-    if (reports && !options.progress(static_cast<double>(k) / static_cast<double>(samples))) {
-      recorder.set_fault("interrupted");
+    if (options.progress && k % samples_per_report == 0) {
+      const bool go_on = options.progress(static_cast<double>(k) / static_cast<double>(samples));
+      if (!go_on) return recorder.interrupt();
     }
   }
   others.up_to(world_from_body.end_ns() + 1);

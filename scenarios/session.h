@@ -11,7 +11,8 @@ namespace plumbline {
 
 struct SessionOptions {
   int threads = 2;  ///< 1: everything in turn; 2 and more: sensors ahead of the estimator. The bytes are the same.
-  /// Called now and then with the simulated share done, [0, 1]; false ends the run there, which is then a fault.
+  /// Called now and then with the simulated share done, [0, 1]; false ends the run there, its record so far kept and
+  /// marked as interrupted.
   std::function<bool(double)> progress;
 };
 

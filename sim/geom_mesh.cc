@@ -19,7 +19,7 @@ void add_quad(TriangleMesh& mesh, Index a, Index b, Index c, Index d) {
 }
 
 Eigen::Vector3d size_of(const mjModel& model, int geom) {
-  return Eigen::Map<const Eigen::Vector3d>(model.geom_size + 3 * geom);
+  return Eigen::Map<const Eigen::Vector3d>(model.geom_size + 3L * geom);
 }
 
 // A size of 0 makes a MuJoCo plane infinite along that axis.
@@ -131,11 +131,11 @@ TriangleMesh cylinder_mesh(double radius, double half_length, double tolerance_m
 
 TriangleMesh compiled_mesh(const mjModel& model, int mesh_id) {
   TriangleMesh mesh;
-  const float* vertex = model.mesh_vert + 3 * model.mesh_vertadr[mesh_id];
+  const float* vertex = model.mesh_vert + 3L * model.mesh_vertadr[mesh_id];
   for (int i = 0; i < model.mesh_vertnum[mesh_id]; ++i, vertex += 3) {
     mesh.vertices.emplace_back(vertex[0], vertex[1], vertex[2]);
   }
-  const int* face = model.mesh_face + 3 * model.mesh_faceadr[mesh_id];
+  const int* face = model.mesh_face + 3L * model.mesh_faceadr[mesh_id];
   for (int i = 0; i < model.mesh_facenum[mesh_id]; ++i, face += 3) {
     mesh.triangles.push_back({static_cast<Index>(face[0]), static_cast<Index>(face[1]), static_cast<Index>(face[2])});
   }
@@ -170,7 +170,7 @@ void add_base(TriangleMesh& mesh, const std::vector<Index>& rim, float base_z) {
 TriangleMesh height_field_mesh(const mjModel& model, int field) {
   const auto rows = static_cast<Index>(model.hfield_nrow[field]);
   const auto columns = static_cast<Index>(model.hfield_ncol[field]);
-  const mjtNum* size = model.hfield_size + 4 * field;  // half x, half y, height of 1, depth of the base
+  const mjtNum* size = model.hfield_size + 4L * field;  // half x, half y, height of 1, depth of the base
   const float* heights = model.hfield_data + model.hfield_adr[field];
   TriangleMesh mesh;
   for (Index r = 0; r < rows; ++r) {

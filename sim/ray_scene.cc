@@ -131,15 +131,15 @@ void RayScene::Impl::add_geoms(const World& world) {
   const mjModel& model = world.model();
   for (int geom = 0; geom < model.ngeom; ++geom) {
     if (model.geom_bodyid[geom] == world.rig_body() || is_transparent(model, geom)) continue;
-    const Eigen::Vector3d position = Eigen::Map<const Eigen::Vector3d>(world.data().geom_xpos + 3 * geom);
+    const Eigen::Vector3d position = Eigen::Map<const Eigen::Vector3d>(world.data().geom_xpos + 3L * geom);
     const Eigen::Matrix3d rotation =
-        Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(world.data().geom_xmat + 9 * geom);
+        Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(world.data().geom_xmat + 9L * geom);
     if (!is_analytic(model.geom_type[geom])) {
       triangles.append(mesh_of_geom(model, geom, kUnused, kUnused), rotation, position, geom);
       continue;
     }
     const AnalyticSurface surface{kind_of(model.geom_type[geom]),
-                                  Eigen::Map<const Eigen::Vector3d>(model.geom_size + 3 * geom), rotation, position,
+                                  Eigen::Map<const Eigen::Vector3d>(model.geom_size + 3L * geom), rotation, position,
                                   geom};
     (is_bounded(surface) ? surfaces : infinite_planes).push_back(surface);
   }

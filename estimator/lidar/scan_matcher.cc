@@ -81,7 +81,7 @@ struct ScanMatcher::Impl {
     options.degeneracy_threshold = settings.degeneracy_threshold;
     options.remapping = remap;
     options.min_features = settings.least_features;
-    edge_limits.largest_residual_m = 0.05;
+    edge_limits.largest_residual_m = 0.03;
     plane_limits.map_sigma_m = edge_limits.map_sigma_m = 0.5 * calibration.lidar_range_sigma_m;
     edge_limits.largest_tilt_sigma = settings.largest_edge_tilt;
     plane_limits.largest_tilt_sigma = settings.largest_plane_tilt;

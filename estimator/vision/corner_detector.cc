@@ -63,7 +63,8 @@ bool is_local_maximum(const cv::Mat& response, int x, int y) {
   return true;
 }
 
-/// Local maxima above the threshold in full-resolution pixels, strongest first; position breaks ties, so the order never depends on the sort.
+/// Local maxima above the threshold in full-resolution pixels, strongest first; position breaks ties, so the order
+/// never depends on the sort.
 std::vector<Candidate> candidates_in(const cv::Mat& response, const cv::Rect& cell, float threshold) {
   std::vector<Candidate> candidates;
   for (int y = 1; y + 1 < response.rows; ++y) {
@@ -102,8 +103,8 @@ double image_noise_dn(const GreyView& image, const CameraNoise& data_sheet) {
     const std::uint8_t* b = a + image.stride;
     const std::uint8_t* c = b + image.stride;
     for (int x = 1; x + 1 < image.width; x += 3) {
-      const int response = a[x - 1] - 2 * a[x] + a[x + 1] - 2 * b[x - 1] + 4 * b[x] - 2 * b[x + 1] + c[x - 1] -
-                           2 * c[x] + c[x + 1];
+      const int response =
+          a[x - 1] - 2 * a[x] + a[x + 1] - 2 * b[x - 1] + 4 * b[x] - 2 * b[x + 1] + c[x - 1] - 2 * c[x] + c[x + 1];
       ++histogram[static_cast<std::size_t>(std::abs(response))];
       ++samples;
       sum += b[x];
@@ -136,8 +137,7 @@ std::vector<Corner> find_corners(const GreyView& image, double noise_dn, const s
     ++held[cell_of(p.x(), p.y())];
   }
 
-  const auto threshold =
-      static_cast<float>(kLeastEigenvalueOverNoise * noise_dn * noise_dn / kEigenvaluePerResponse);
+  const auto threshold = static_cast<float>(kLeastEigenvalueOverNoise * noise_dn * noise_dn / kEigenvaluePerResponse);
   cv::Mat half;
   cv::pyrDown(grey, half);
   const int border = options.border_px / kShrink;
@@ -160,8 +160,8 @@ std::vector<Corner> find_corners(const GreyView& image, double noise_dn, const s
         if (occupancy.taken(c.x, c.y)) continue;
         occupancy.take(c.x, c.y);
         ++count;
-        corners.push_back({Eigen::Vector2f(static_cast<float>(c.x), static_cast<float>(c.y)),
-                           noise_sigma_px(c.response, noise_dn)});
+        corners.push_back(
+            {Eigen::Vector2f(static_cast<float>(c.x), static_cast<float>(c.y)), noise_sigma_px(c.response, noise_dn)});
       }
     }
   }

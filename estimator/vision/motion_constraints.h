@@ -6,8 +6,8 @@
 #include "estimator/messages.h"
 #include "estimator/vision/inverse_depth.h"
 
-/// The residual rows of one feature seen in the key-frame l and in the image now c, and their Jacobians with respect to a
-/// right perturbation of keyframe_from_body: thesis 5.6-5.8, whitened to units of pixel noise.
+/// The residual rows of one feature seen in the key-frame l and in the image now c, and their Jacobians with respect to
+/// a right perturbation of keyframe_from_body: thesis 5.6-5.8, whitened to units of pixel noise.
 namespace plumbline {
 
 /// The camera's motion since the key-frame at one candidate pose: what all rows of a linearisation share.

@@ -27,13 +27,13 @@ struct Feature {
   FeatureSighting sighting;
   Eigen::Vector2f keyframe_pixel = Eigen::Vector2f::Zero();
   Eigen::Vector2f anchor_pixel = Eigen::Vector2f::Zero();
-  double anchor_scale = 1.0;   ///< z^c / z^l when the anchor was taken
-  InverseDepth triangulated;   ///< in the key-frame, from its whole track
+  double anchor_scale = 1.0;  ///< z^c / z^l when the anchor was taken
+  InverseDepth triangulated;  ///< in the key-frame, from its whole track
   TrackedFeature::Depth depth_source = TrackedFeature::Depth::kNone;
-  bool epipolar = false;       ///< which row kind this image gives
+  bool epipolar = false;                                    ///< which row kind this image gives
   Eigen::Matrix2d whitening = Eigen::Matrix2d::Identity();  ///< of its reprojection rows, else unused
   bool inlier = true;
-  int outlier_frames = 0;      ///< in a row
+  int outlier_frames = 0;  ///< in a row
 };
 
 SolveResult unsolved(const Pose& guess) {
@@ -99,7 +99,7 @@ struct VisualOdometry::Impl {
   std::optional<Pose> world_from_keyframe;  ///< the body's pose; empty before the first key-frame
   std::int64_t keyframe_ns = 0;
   std::size_t keyframe_features = 0;
-  Pose keyframe_from_newest;                ///< the body's motion, as last solved
+  Pose keyframe_from_newest;  ///< the body's motion, as last solved
   bool solved = false;
   double anchor_roll = 0.0;
 };
@@ -216,8 +216,7 @@ void VisualOdometry::Impl::choose_rows(const PosePrior& prior) {
   const double rotation_px = camera.fx * std::sqrt(prior.covariance.topLeftCorner<3, 3>().trace());
   for (Feature& f : features) {
     const double least = kLeastParallaxInSigma * std::hypot(f.sighting.pixel_sigma, rotation_px);
-    f.epipolar =
-        f.depth_source == TrackedFeature::Depth::kNone && parallax_px(motion, camera, f.sighting) > least;
+    f.epipolar = f.depth_source == TrackedFeature::Depth::kNone && parallax_px(motion, camera, f.sighting) > least;
     if (!f.epipolar) f.whitening = reprojection_whitening(motion, camera, f.sighting);
   }
 }

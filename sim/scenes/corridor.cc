@@ -14,8 +14,8 @@ namespace {
 constexpr double kWallM = 0.2;
 constexpr double kDoorWidthM = 1.0;
 constexpr double kDoorHeightM = 2.05;
-constexpr double kDoorShare = 0.75;   // of the places for one that have a door
-constexpr double kNarrowM = 2.3;      // no cabinets in corridors narrower than this
+constexpr double kDoorShare = 0.75;  // of the places for one that have a door
+constexpr double kNarrowM = 2.3;     // no cabinets in corridors narrower than this
 
 /// One straight leg, in a frame with its origin at the leg's first corner and x along it.
 struct Leg {
@@ -26,7 +26,7 @@ struct Leg {
   double door_spacing = 0.0;
   int turn_before = 0;  ///< +1 left, -1 right, 0: the corridor begins here
   int turn_after = 0;
-  std::string name;     ///< of its random streams
+  std::string name;  ///< of its random streams
 
   /// Where a side's wall begins and ends: the inner wall of a turn stops short of the corner, the outer one passes it.
   double wall_begin(int side) const { return turn_before == 0 ? 0.0 : side * turn_before * half_width; }
@@ -97,7 +97,8 @@ void add_door(MjcfWriter& writer, const Wall& wall, const Opening& opening, Rand
   add_door_frame(writer, wall, opening);
 }
 
-void add_wall_thing(MjcfWriter& writer, const Leg& leg, const Pose& world_from_wall, double along, RandomStream& stream) {
+void add_wall_thing(MjcfWriter& writer, const Leg& leg, const Pose& world_from_wall, double along,
+                    RandomStream& stream) {
   const double kind = stream.uniform();
   Fixture fixture{.material = "plaster", .along_m = along + stream.uniform(-0.1, 0.1)};
   if (kind < 0.3) {  // pilaster
@@ -167,7 +168,8 @@ void add_lamps(MjcfWriter& writer, const Leg& leg, RandomStream& stream) {
     const double y = stream.uniform(-0.2, 0.2);
     writer.box("lamp_housing", {along - 0.5, y - 0.1, leg.height - 0.06}, {along + 0.5, y + 0.1, leg.height},
                leg.world_from_leg);
-    writer.lamp({leg.world_from_leg * Eigen::Vector3d(along, y, leg.height - 0.2), stream.uniform(120.0, 200.0), 11.0});
+    writer.lamp(
+        {leg.world_from_leg * Eigen::Vector3d(along, y, leg.height - 0.35), stream.uniform(120.0, 200.0), 11.0});
   }
 }
 

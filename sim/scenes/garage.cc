@@ -40,8 +40,12 @@ void add_long_walls(MjcfWriter& writer, const GaragePlan& plan, int hall, Random
 void add_cabinets(MjcfWriter& writer, const Wall& wall, RandomStream& stream) {
   for (const double along : {1.2, (wall.to - wall.from).norm() - 1.2}) {
     add_fixture(writer, frame_of(wall),
-                {.material = "pipe_red", .along_m = along + stream.uniform(-0.3, 0.3), .height_m = 1.2,
-                 .width_m = 0.7, .tall_m = 0.9, .depth_m = 0.25});
+                {.material = "pipe_red",
+                 .along_m = along + stream.uniform(-0.3, 0.3),
+                 .height_m = 1.2,
+                 .width_m = 0.7,
+                 .tall_m = 0.9,
+                 .depth_m = 0.25});
   }
 }
 
@@ -62,8 +66,13 @@ void add_east_wall(MjcfWriter& writer, const GaragePlan& plan, int hall, RandomS
   add_cabinets(writer, wall, stream);
   // A large board on the blind half of each face: the far side of the hall from the door.
   const double blind = plan.is_last(hall) ? y : y - plan.door_y(hall);
-  add_fixture(writer, frame_of(wall), {.material = pick(stream, sign_materials()), .along_m = blind, .height_m = 1.6,
-                                       .width_m = 2.4, .tall_m = 1.2, .depth_m = 0.03});
+  add_fixture(writer, frame_of(wall),
+              {.material = pick(stream, sign_materials()),
+               .along_m = blind,
+               .height_m = 1.6,
+               .width_m = 2.4,
+               .tall_m = 1.2,
+               .depth_m = 0.03});
 }
 
 void add_west_wall(MjcfWriter& writer, const GaragePlan& plan, RandomStream& stream) {
@@ -110,8 +119,11 @@ void add_pillar(MjcfWriter& writer, const GaragePlan& plan, const Eigen::Vector2
              {at.x() + kHalf, at.y() + kHalf, plan.ceiling});
   const bool faces_south = at.y() > 0.0;  // towards the lane in front of it
   const Pose face = upright_frame({at.x(), at.y() + (faces_south ? -kHalf : kHalf), 0.0}, faces_south ? M_PI : 0.0);
-  add_fixture(writer, face, {.material = pick(stream, sign_materials()), .height_m = stream.uniform(1.3, 1.9),
-                             .width_m = 0.4, .tall_m = 0.6});
+  add_fixture(writer, face,
+              {.material = pick(stream, sign_materials()),
+               .height_m = stream.uniform(1.3, 1.9),
+               .width_m = 0.4,
+               .tall_m = 0.6});
 }
 
 void add_pillars_and_beams(MjcfWriter& writer, const GaragePlan& plan, int hall, RandomStream& stream) {
@@ -145,8 +157,8 @@ void add_lamps(MjcfWriter& writer, const GaragePlan& plan, int hall, RandomStrea
   for (const double lane : {-GaragePlan::kLaneY, GaragePlan::kLaneY}) {
     for (int i = 0; i < count; ++i) {
       const Eigen::Vector3d at{plan.west_of(hall) + plan.length * (i + 0.5) / count + stream.uniform(-0.5, 0.5),
-                               lane + stream.uniform(-0.3, 0.3), plan.ceiling - GaragePlan::kBeamDepthM - 0.15};
-      writer.box("lamp_housing", at + Eigen::Vector3d(-0.6, -0.1, 0.1), at + Eigen::Vector3d(0.6, 0.1, 0.15));
+                               lane + stream.uniform(-0.3, 0.3), plan.ceiling - GaragePlan::kBeamDepthM - 0.25};
+      writer.box("lamp_housing", at + Eigen::Vector3d(-0.6, -0.1, 0.15), at + Eigen::Vector3d(0.6, 0.1, 0.2));
       writer.lamp({at, stream.uniform(200.0, 300.0), 14.0});
     }
   }

@@ -42,9 +42,12 @@ void add_wall_bays(MjcfWriter& writer, const GaragePlan& plan, int hall, double 
   if (first > 0) add_ramp(writer, west + 0.5, front + 0.3, plan.half_width());
   for (int i = first; i < count; ++i) {
     const double x = west + i * GaragePlan::kBayPitchM;
-    if (i % 2 == 0) add_bay_line(writer, x, std::min(side * front, side * (front + 4.5)), std::max(side * front, side * (front + 4.5)));
-    fill_bay(writer, plan, {{x + GaragePlan::kBayPitchM / 2.0, side * (plan.half_width() - kParkedLengthM / 2.0 - 0.1), 0.0},
-                            "garage/hall" + std::to_string(hall) + (side > 0.0 ? "/north" : "/south") + std::to_string(i)});
+    if (i % 2 == 0)
+      add_bay_line(writer, x, std::min(side * front, side * (front + 4.5)),
+                   std::max(side * front, side * (front + 4.5)));
+    fill_bay(writer, plan,
+             {{x + GaragePlan::kBayPitchM / 2.0, side * (plan.half_width() - kParkedLengthM / 2.0 - 0.1), 0.0},
+              "garage/hall" + std::to_string(hall) + (side > 0.0 ? "/north" : "/south") + std::to_string(i)});
   }
 }
 
@@ -66,8 +69,9 @@ void add_island(MjcfWriter& writer, const GaragePlan& plan, int hall) {
   for (int i = 0; i < count; ++i) {
     const double x = begin + (end - begin) * (i + 0.5) / count;
     if (is_at_pillar(plan, x)) continue;
-    fill_bay(writer, plan, {{west + x, 0.0, GaragePlan::kKerbM},
-                            "garage/hall" + std::to_string(hall) + "/island" + std::to_string(i)});
+    fill_bay(
+        writer, plan,
+        {{west + x, 0.0, GaragePlan::kKerbM}, "garage/hall" + std::to_string(hall) + "/island" + std::to_string(i)});
   }
 }
 

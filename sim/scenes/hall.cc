@@ -12,8 +12,8 @@ namespace plumbline {
 namespace {
 
 constexpr double kWallM = 0.2;
-constexpr double kColumnInsetM = 3.2;   // from a wall to the columns' axes
-constexpr double kFreeBelowM = 2.0;     // things on the open floor stay below this
+constexpr double kColumnInsetM = 3.2;  // from a wall to the columns' axes
+constexpr double kFreeBelowM = 2.0;    // things on the open floor stay below this
 
 struct Plan {
   double half_length = 0.0;
@@ -47,9 +47,12 @@ void add_boards(MjcfWriter& writer, const Wall& wall, RandomStream& stream) {
   for (double along = 3.0; along < length - 2.5; along += 4.5) {
     for (const double height : {wall.height_m * 0.5, wall.height_m * 0.75}) {
       add_fixture(writer, frame_of(wall),
-                  {.material = pick(stream, sign_materials()), .along_m = along + stream.uniform(-0.6, 0.6),
-                   .height_m = height + stream.uniform(-0.5, 0.5), .width_m = stream.uniform(1.2, 2.6),
-                   .tall_m = stream.uniform(0.8, 1.6), .depth_m = 0.04});
+                  {.material = pick(stream, sign_materials()),
+                   .along_m = along + stream.uniform(-0.6, 0.6),
+                   .height_m = height + stream.uniform(-0.5, 0.5),
+                   .width_m = stream.uniform(1.2, 2.6),
+                   .tall_m = stream.uniform(0.8, 1.6),
+                   .depth_m = 0.04});
     }
   }
 }
@@ -103,7 +106,8 @@ void add_columns_and_beams(MjcfWriter& writer, const Plan& plan) {
         writer.box(material, {x - 0.3, side - 0.3, 0.0}, {x + 0.3, side + 0.3, plan.height});
       }
     }
-    writer.box("steel", {x - 0.15, -plan.half_width, plan.height - 0.9}, {x + 0.15, plan.half_width, plan.height - 0.3});
+    writer.box("steel", {x - 0.15, -plan.half_width, plan.height - 0.9},
+               {x + 0.15, plan.half_width, plan.height - 0.3});
   }
 }
 
@@ -144,7 +148,8 @@ void add_floor_crates(MjcfWriter& writer, const Plan& plan) {
   const double y_reach = plan.half_width - 5.0;
   for (double x = -x_reach; x <= x_reach; x += kPitch) {
     for (double y = -y_reach; y <= y_reach; y += kPitch) {
-      RandomStream stream(plan.seed, "hall/crate" + std::to_string(std::lround(x)) + "/" + std::to_string(std::lround(y)));
+      RandomStream stream(plan.seed,
+                          "hall/crate" + std::to_string(std::lround(x)) + "/" + std::to_string(std::lround(y)));
       if (stream.uniform() >= plan.clutter) continue;
       const Eigen::Vector3d foot{x + stream.uniform(-1.5, 1.5), y + stream.uniform(-1.5, 1.5), 0.0};
       add_crates(writer, stream, upright_frame(foot, stream.uniform(0.0, M_PI)), kFreeBelowM);
@@ -159,9 +164,9 @@ void add_lamps(MjcfWriter& writer, const Plan& plan) {
   const int across = static_cast<int>(2.0 * plan.half_width / kSpacing);
   for (int i = 0; i < along; ++i) {
     for (int j = 0; j < across; ++j) {
-      const Eigen::Vector3d at{-plan.half_length + 2.0 * plan.half_length * (i + 0.5) / along + stream.uniform(-0.8, 0.8),
-                               -plan.half_width + 2.0 * plan.half_width * (j + 0.5) / across + stream.uniform(-0.8, 0.8),
-                               plan.height - 1.2};
+      const Eigen::Vector3d at{
+          -plan.half_length + 2.0 * plan.half_length * (i + 0.5) / along + stream.uniform(-0.8, 0.8),
+          -plan.half_width + 2.0 * plan.half_width * (j + 0.5) / across + stream.uniform(-0.8, 0.8), plan.height - 1.2};
       writer.box("lamp_housing", at + Eigen::Vector3d(-0.5, -0.2, 0.2), at + Eigen::Vector3d(0.5, 0.2, 0.3));
       writer.lamp({at, stream.uniform(1200.0, 1800.0), plan.height + 12.0});
     }

@@ -86,7 +86,8 @@ SceneDescription MjcfWriter::finish(const std::string& model_name, const std::ve
   }
   scene.mjcf = "<mujoco model=\"" + model_name + "\">\n" +
                "  <default><geom contype=\"0\" conaffinity=\"0\"/></default>\n"  // scenery never moves
-               "  <asset>\n" + assets + "  </asset>\n  <worldbody>\n" + geoms_ + "  </worldbody>\n</mujoco>\n";
+               "  <asset>\n" +
+               assets + "  </asset>\n  <worldbody>\n" + geoms_ + "  </worldbody>\n</mujoco>\n";
   scene.lamps = lamps_;
   scene.ambient_lux = ambient_lux;
   scene.sky_luminance = sky_luminance;

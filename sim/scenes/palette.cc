@@ -49,7 +49,7 @@ const std::vector<Material>& scene_palette() {
 
 const std::vector<std::string>& wall_materials() {
   static const std::vector<std::string> names = {"concrete_pale", "concrete_grey", "concrete_dark", "brick_red",
-                                                 "brick_pale", "panels_white", "panels_blue", "panels_green"};
+                                                 "brick_pale",    "panels_white",  "panels_blue",   "panels_green"};
   return names;
 }
 
@@ -87,8 +87,7 @@ std::string pick(RandomStream& stream, const std::vector<std::string>& names) {
   return names[static_cast<std::size_t>(stream.integer(0, static_cast<int>(names.size()) - 1))];
 }
 
-std::string pick_other_than(const std::string& last, RandomStream& stream,
-                            const std::vector<std::string>& names) {
+std::string pick_other_than(const std::string& last, RandomStream& stream, const std::vector<std::string>& names) {
   std::string name = pick(stream, names);
   while (name == last) name = pick(stream, names);
   return name;

@@ -45,7 +45,8 @@ void add_tank(MjcfWriter& writer, RandomStream& stream, const Pose& frame) {
   const double radius = stream.uniform(0.5, 0.8);
   const double half_length = stream.uniform(0.8, 1.2);
   const double middle = radius + 0.35;
-  writer.capsule(pick(stream, barrel_materials()), {0.0, -half_length, middle}, {0.0, half_length, middle}, radius, frame);
+  writer.capsule(pick(stream, barrel_materials()), {0.0, -half_length, middle}, {0.0, half_length, middle}, radius,
+                 frame);
   for (const double y : {-0.7 * half_length, 0.7 * half_length}) {
     writer.box("concrete_grey", {-0.6, y - 0.15, 0.0}, {0.6, y + 0.15, 0.5}, frame);
   }

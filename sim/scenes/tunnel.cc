@@ -27,13 +27,13 @@ struct Plan {
 /// A flat strip of the lining, all along the tunnel: seen in the section, y to the left and z up.
 struct Strip {
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  double tilt = 0.0;      ///< about x; at 0 the strip faces up
+  double tilt = 0.0;  ///< about x; at 0 the strip faces up
   double width = 0.0;
   double overlap = 0.0;   ///< beyond each of its edges, behind the neighbouring strips' faces
   double shortest = 4.0;  ///< stretches of one material
   double longest = 8.0;
   std::vector<std::string> materials;
-  std::string name;       ///< of its random stream
+  std::string name;  ///< of its random stream
 };
 
 // The strip's frame has its face at z = 0, looking up along z.
@@ -66,7 +66,11 @@ std::vector<Strip> road_strips(double half_width) {
   const double lane = half_width - kLineHalfM;
   const double middle = kLineHalfM + lane / 2.0;
   return {{.middle = {-middle, 0.0}, .width = lane, .materials = road_materials(), .name = "road/right"},
-          {.width = 2.0 * kLineHalfM, .shortest = 2.0, .longest = 4.0, .materials = {"road_paint", "asphalt"}, .name = "road/line"},
+          {.width = 2.0 * kLineHalfM,
+           .shortest = 2.0,
+           .longest = 4.0,
+           .materials = {"road_paint", "asphalt"},
+           .name = "road/line"},
           {.middle = {middle, 0.0}, .width = lane, .materials = road_materials(), .name = "road/left"}};
 }
 
@@ -79,12 +83,20 @@ std::vector<Strip> box_lining(const Plan& plan) {
     const std::string name = side < 0.0 ? "right" : "left";
     const double y = side * plan.half_width;
     const double tilt = side * M_PI / 2.0;  // looks inwards
-    strips.push_back({.middle = {y, band / 2.0}, .tilt = tilt, .width = band, .materials = wall_materials(), .name = name + "/low"});
-    strips.push_back({.middle = {y, band + upper / 2.0}, .tilt = tilt, .width = upper,
-                      .materials = painted_wall_materials(), .name = name + "/high"});
+    strips.push_back(
+        {.middle = {y, band / 2.0}, .tilt = tilt, .width = band, .materials = wall_materials(), .name = name + "/low"});
+    strips.push_back({.middle = {y, band + upper / 2.0},
+                      .tilt = tilt,
+                      .width = upper,
+                      .materials = painted_wall_materials(),
+                      .name = name + "/high"});
   }
-  strips.push_back({.middle = {0.0, plan.height}, .tilt = M_PI, .width = 2.0 * plan.half_width, .overlap = kLiningM,
-                    .materials = {"concrete_pale", "concrete_grey", "plaster"}, .name = "ceiling"});
+  strips.push_back({.middle = {0.0, plan.height},
+                    .tilt = M_PI,
+                    .width = 2.0 * plan.half_width,
+                    .overlap = kLiningM,
+                    .materials = {"concrete_pale", "concrete_grey", "plaster"},
+                    .name = "ceiling"});
   return strips;
 }
 
@@ -102,9 +114,14 @@ std::vector<Strip> round_lining(const Plan& plan) {
     const Eigen::Vector2d to = vertex(i + 1);
     if (from.y() <= 0.0 && to.y() <= 0.0) continue;  // below the road
     const Eigen::Vector2d inward(from.y() - to.y(), to.x() - from.x());
-    strips.push_back({.middle = (from + to) / 2.0, .tilt = std::atan2(-inward.x(), inward.y()),
-                      .width = (to - from).norm(), .overlap = 0.05, .shortest = 7.0, .longest = 14.0,
-                      .materials = painted_wall_materials(), .name = "round" + std::to_string(i)});
+    strips.push_back({.middle = (from + to) / 2.0,
+                      .tilt = std::atan2(-inward.x(), inward.y()),
+                      .width = (to - from).norm(),
+                      .overlap = 0.05,
+                      .shortest = 7.0,
+                      .longest = 14.0,
+                      .materials = painted_wall_materials(),
+                      .name = "round" + std::to_string(i)});
   }
   return strips;
 }
@@ -129,7 +146,7 @@ void add_lamps(MjcfWriter& writer, const Plan& plan) {
   for (int i = 0; i < count; ++i) {
     const double x = (i + 0.5 - count / 2.0) * kSpacing + stream.uniform(-0.8, 0.8);
     const double y = stream.uniform(-0.5, 0.5);
-    writer.lamp({{x, y, plan.height - 0.4}, stream.uniform(200.0, 320.0), 14.0});
+    writer.lamp({{x, y, plan.height - 0.7}, stream.uniform(200.0, 320.0), 14.0});
   }
 }
 

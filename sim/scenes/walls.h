@@ -23,7 +23,7 @@ struct Wall {
   double height_m = 3.0;
   double thickness_m = 0.2;
   std::vector<Opening> openings = {};  ///< apart from each other, in order along the wall
-  double section_m = 6.0;         ///< a stretch of one material is at most this long
+  double section_m = 6.0;              ///< a stretch of one material is at most this long
 };
 
 /// The wall's frame: origin at `from` on the floor, x along the wall, y into the room.

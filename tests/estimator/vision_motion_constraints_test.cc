@@ -108,8 +108,8 @@ std::vector<FeatureSighting> noisy_sightings(const Pose& keyframe_from_body, Ran
     FeatureSighting f;
     f.keyframe_ray = ray_through(kCamera, {random.uniform(40, 600), random.uniform(40, 320)});
     const double depth = random.uniform(3.0, 15.0);
-    const Vector3d point = motion.camera_from_keyframe_rotation * (depth * f.keyframe_ray) +
-                           motion.camera_from_keyframe_translation;
+    const Vector3d point =
+        motion.camera_from_keyframe_rotation * (depth * f.keyframe_ray) + motion.camera_from_keyframe_translation;
     f.pixel = project(kCamera, point) + f.pixel_sigma * Eigen::Vector2d(random.gaussian(), random.gaussian());
     if (i % 3 != 0) f.depth = {1.0 / depth + 0.02 / (depth * depth) * random.gaussian(), 0.02 / (depth * depth)};
     features.push_back(f);
@@ -126,8 +126,7 @@ SolveResult solve_sightings(const std::vector<FeatureSighting>& features, const 
         const PixelRow row = epipolar_row(motion, kCamera, f);
         rows.add(row.residual, row.jacobian);
       } else {
-        const PixelRows pair =
-            reprojection_rows(motion, kCamera, f, reprojection_whitening(at_guess, kCamera, f));
+        const PixelRows pair = reprojection_rows(motion, kCamera, f, reprojection_whitening(at_guess, kCamera, f));
         rows.add(pair.residual[0], pair.jacobian.row(0), pair.residual[1], pair.jacobian.row(1));
       }
     }

@@ -63,8 +63,8 @@ TEST(Triangulation, FilteredOverATrackIsUnbiasedAndKnowsItsError) {
     for (int keyframe = 0; keyframe < 6; ++keyframe) {
       const FeatureSighting f =
           sighting_of(pixel, depth, step, 0.3 * Eigen::Vector2d(random.gaussian(), random.gaussian()));
-      const Vector3d moved = step.camera_from_keyframe_rotation * (depth * f.keyframe_ray) +
-                             step.camera_from_keyframe_translation;
+      const Vector3d moved =
+          step.camera_from_keyframe_rotation * (depth * f.keyframe_ray) + step.camera_from_keyframe_translation;
       if (const auto seen = triangulate(step, kCamera, f)) filtered = fuse(filtered, *seen);
       filtered = carried_along(filtered, step, f.keyframe_ray);
       pixel = project(kCamera, moved);
@@ -92,8 +92,8 @@ TEST(Triangulation, CarryingAlongTransformsMeanAndSigma) {
   const CameraMotion motion = camera_motion({exp_so3({0, 0.1, 0.1}), Vector3d(2.0, 0.3, 0.1)}, kBodyFromCamera);
   const Vector3d ray = ray_through(kCamera, {400, 150});
   const auto depth_in_new = [&](double inverse_depth) {
-    return 1.0 / (motion.camera_from_keyframe_rotation * (ray / inverse_depth) +
-                  motion.camera_from_keyframe_translation).z();
+    return 1.0 /
+           (motion.camera_from_keyframe_rotation * (ray / inverse_depth) + motion.camera_from_keyframe_translation).z();
   };
   const double mean = 1.0 / kDepth;
   const InverseDepth carried = carried_along({mean, 1e-3}, motion, ray);

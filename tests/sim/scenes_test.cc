@@ -15,12 +15,12 @@
 namespace plumbline {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-using ::testing::ThrowsMessage;
 using test::points_along;
 using test::route_of;
 using test::scene_routes;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 constexpr std::uint64_t kSeeds[] = {1, 2, 3, 42, 0xffffffffffffffffULL};
 
@@ -40,7 +40,8 @@ double distance_to(const World& world, int geom, const Eigen::Vector3d& point) {
   Eigen::Vector3d half(size[0], size[1], size[2]);
   if (model.geom_type[geom] == mjGEOM_CYLINDER) half = {size[0], size[0], size[1]};
   if (model.geom_type[geom] == mjGEOM_CAPSULE) half = {size[0], size[0], size[1] + size[0]};
-  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> world_from_geom(world.data().geom_xmat + 9 * geom);
+  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> world_from_geom(world.data().geom_xmat +
+                                                                                       9 * geom);
   const Eigen::Map<const Eigen::Vector3d> centre(world.data().geom_xpos + 3 * geom);
   const Eigen::Vector3d in_geom = world_from_geom.transpose() * (point - centre);
   return (in_geom.cwiseAbs() - half).cwiseMax(0.0).norm();
@@ -89,7 +90,8 @@ std::vector<Eigen::Vector3d> vlp16_directions() {
 
 /// The face of a box that holds a point of its surface.
 Eigen::Vector3d box_normal(const World& world, int geom, const Eigen::Vector3d& point) {
-  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> world_from_geom(world.data().geom_xmat + 9 * geom);
+  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> world_from_geom(world.data().geom_xmat +
+                                                                                       9 * geom);
   const Eigen::Map<const Eigen::Vector3d> centre(world.data().geom_xpos + 3 * geom);
   const Eigen::Map<const Eigen::Vector3d> half(world.model().geom_size + 3 * geom);
   const Eigen::Vector3d in_geom = world_from_geom.transpose() * (point - centre);

@@ -17,7 +17,7 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 // A status lasts until the module's next solve, but no longer than this: silence is shown as such.
 constexpr double kLongestStatus = 0.5;  // [s]
-constexpr double kSmallHeight = 130.0;
+constexpr double kSmallHeight = 118.0;
 
 std::int64_t start_of(const RunRecord& record) {
   return record.ground_truth.empty() ? 0 : record.ground_truth.front().stamp_ns;
