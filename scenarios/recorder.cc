@@ -81,7 +81,6 @@ RunRecord Recorder::finish() {
     }
     record_.map = estimator_.map();
   });
-  if (interrupted_ && !faulted()) record_.fault = "interrupted";
   return std::move(record_);
 }
 

@@ -44,8 +44,8 @@ class Delivery {
   std::unique_ptr<SensorMessage> next_;
 };
 
-void run(const Scenario& scenario, const Trajectory& world_from_body, MessageSource source, const SessionOptions& options,
-         Recorder& recorder) {
+void run(const Scenario& scenario, const Trajectory& world_from_body, MessageSource source,
+         const SessionOptions& options, Recorder& recorder) {
   Imu imu(scenario.rig.imu, scenario.seed);
   imu.noise_enabled = scenario.rig.imu_noise;
   Delivery others(std::move(source), recorder);
@@ -60,7 +60,7 @@ void run(const Scenario& scenario, const Trajectory& world_from_body, MessageSou
     if (k % scenario.rig.decimation == 0) recorder.deliver(sample);
     if (options.progress && k % samples_per_report == 0) {
       const bool go_on = options.progress(static_cast<double>(k) / static_cast<double>(samples));
-      if (!go_on) return recorder.interrupt();
+      if (!go_on) return recorder.set_fault("interrupted");
     }
   }
   others.up_to(world_from_body.end_ns() + 1);
