@@ -44,8 +44,8 @@ class Delivery {
   std::unique_ptr<SensorMessage> next_;
 };
 
-void run(const Scenario& scenario, const Trajectory& world_from_body, MessageSource source, const SessionOptions& options,
-         Recorder& recorder) {
+void run(const Scenario& scenario, const Trajectory& world_from_body, MessageSource source,
+         const SessionOptions& options, Recorder& recorder) {
   Imu imu(scenario.rig.imu, scenario.seed);
   imu.noise_enabled = scenario.rig.imu_noise;
   Delivery others(std::move(source), recorder);

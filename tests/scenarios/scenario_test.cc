@@ -159,6 +159,8 @@ TEST_P(BadScenario, IsRefusedWithAMessageThatHelps) {
   for (const auto& part : GetParam().message) EXPECT_THAT(message, HasSubstr(part));
 }
 
+std::string name_of(const testing::TestParamInfo<BadInput>& bad) { return bad.param.what; }
+
 std::string nested(int levels) {
   return "x: " + std::string(static_cast<std::size_t>(levels), '[') +
          std::string(static_cast<std::size_t>(levels), ']');
@@ -194,7 +196,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadInput{"BaseOfItself", "base: file.yaml\n", {}, {"file.yaml:1", "lead back"}},
                     BadInput{"MissingMjcf", kMotion + "world: {mjcf: none.xml}\n", {}, {"world.mjcf", "none.xml"}},
                     BadInput{"MissingTum", "motion: {tum: none.tum}\n", {}, {"motion.tum", "none.tum"}}),
-    [](const auto& info) { return info.param.what; });
+    name_of);
 
 INSTANTIATE_TEST_SUITE_P(
     Keys, BadScenario,
@@ -237,7 +239,7 @@ INSTANTIATE_TEST_SUITE_P(
             "NoBound", kMotion + "expect: {drift_percent: {}}\n", {}, {"expect.drift_percent", "min, max or both"}},
         BadInput{"Bounds", kMotion + "expect: {drift_percent: {min: 2, max: 1}}\n", {}, {"min above max"}},
         BadInput{"Status", kMotion + "expect: {status: good}\n", {}, {"expect.status", "'good'", "ok"}}),
-    [](const auto& info) { return info.param.what; });
+    name_of);
 
 INSTANTIATE_TEST_SUITE_P(
     Overrides, BadScenario,
@@ -253,7 +255,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"Base", kMotion, {"base=x.yaml"}, {"--set base=x.yaml", "only be set in a file"}},
         BadInput{"ScalarForMap", kMotion, {"rig=1"}, {"--set rig=1", "a map of keys"}},
         BadInput{"SectionBelowScalar", kMotion + "seed: 1\n", {"seed.x=1"}, {"--set seed.x=1", "a whole number"}}),
-    [](const auto& info) { return info.param.what; });
+    name_of);
 
 TEST_F(ScenarioFile, LongChainsAndLoopsOfBasesAreRefused) {
   files_.write("a.yaml", "base: b.yaml\n");
