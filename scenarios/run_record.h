@@ -37,10 +37,10 @@ struct RunRecord {
   std::vector<ModuleHealth> health;              ///< of all modules in time order
   std::map<Module, MessageTally> messages;
   std::vector<TimingRow> timing;
-  std::vector<FrameSnapshot> snapshots;          ///< three frames: a sixth, a half and five sixths through the run
-  std::vector<MapPoint> map;                     ///< in the estimate's world
-  bool estimator_lost = false;                   ///< the estimator said so in its last output
-  std::string fault;                             ///< empty, or what ended the run early
+  std::vector<FrameSnapshot> snapshots;  ///< three frames: a sixth, a half and five sixths through the run
+  std::vector<MapPoint> map;             ///< in the estimate's world
+  bool estimator_lost = false;           ///< the estimator said so in its last output
+  std::string fault;                     ///< empty, or what ended the run early
   double estimator_wall_s = 0.0;
   double sensors_wall_s = 0.0;
 };

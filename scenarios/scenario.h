@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <map>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "estimator/estimator.h"
+#include "scenarios/input_error.h"
 #include "sensors/camera.h"
 #include "sensors/imu.h"
 #include "sensors/lidar.h"
@@ -18,17 +18,11 @@
 
 namespace plumbline {
 
-/// Bad input: the message names the file, the key or line, what was found and what is allowed.
-class InputError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 struct WorldConfig {
-  std::string scene = "garage";        ///< a name of scene_library(), or empty with `mjcf` set
-  std::filesystem::path mjcf;          ///< a user's MJCF
+  std::string scene = "garage";  ///< a name of scene_library(), or empty with `mjcf` set
+  std::filesystem::path mjcf;    ///< a user's MJCF
   SceneValues parameters;
-  std::optional<std::uint64_t> seed;   ///< otherwise the scenario's
+  std::optional<std::uint64_t> seed;  ///< otherwise the scenario's
   double light_lux = 200.0;
   std::vector<LightStep> light_schedule;  ///< in time order
 };
@@ -40,22 +34,31 @@ struct Expectation {
   std::optional<double> max;
 };
 
+/// Where the sensors sit in the pack unless the scenario says otherwise, x forward, z up [m].
+inline const Eigen::Vector3d kDefaultLidarInPack{0.0, 0.0, 0.1};
+inline const Eigen::Vector3d kDefaultCameraInPack{0.1, 0.0, 0.0};
+
+/// The pack of sensors on the vehicle. The pack's origin is the body, where the IMU sits:
+/// world_from_body = world_from_vehicle * vehicle_from_pack, point_in_body = pack_from_lidar * point_in_lidar.
 struct RigConfig {
-  int decimation = 1;    ///< 2 drops every other message of all sensors
+  int decimation = 1;  ///< 2 drops every other message of all sensors
   Pose vehicle_from_pack;
   Pose pack_from_lidar;
   Pose pack_from_camera;
   LidarModel lidar;
   CameraModel camera;
   ImuModel imu;
+  bool lidar_noise = true;  ///< false: exact, for tests
+  bool camera_noise = true;
+  bool imu_noise = true;
 };
 
 /// One scenario file, composed of the folders' own configs, everything checked.
 struct Scenario {
-  std::string name;                 ///< the file's stem
+  std::string name;  ///< the file's stem
   std::filesystem::path path;
-  std::string digest;               ///< of the resolved keys, for provenance
-  std::string resolved_yaml;        ///< all keys after base, file and --set
+  std::string digest;         ///< of the resolved keys, for provenance
+  std::string resolved_yaml;  ///< all keys after base, file and --set
   std::uint64_t seed = 1;
   WorldConfig world;
   MotionConfig motion;

@@ -5,20 +5,33 @@
 #include "scenarios/run_record.h"
 #include "scenarios/scenario.h"
 #include "sim/ray_scene.h"
+#include "sim/trajectory.h"
 
 namespace plumbline {
 
 struct SessionOptions {
   int threads = 2;  ///< 1: everything in turn; 2 and more: sensors ahead of the estimator. The bytes are the same.
-  /// Called now and then with the simulated share done, [0, 1].
-  std::function<void(double)> progress;
+  /// Called now and then with the simulated share done, [0, 1]; false ends the run there, its record so far kept and
+  /// marked as interrupted.
+  std::function<bool(double)> progress;
 };
 
 /// The world of a scenario, light level set. @throws InputError
 World make_world(const Scenario& scenario);
 
+/// The body's exact motion in a scenario, stamps counted from 0. @throws InputError
+Trajectory make_body_trajectory(const Scenario& scenario);
+
 /// Runs a scenario in lock-step: world, motion, sensors, estimator. A fault of the estimator ends the run and is kept
 /// in the record; bad input throws InputError before anything is simulated.
-RunRecord run_session(const Scenario& scenario, const World& world, const RayScene& rays, const SessionOptions& options);
+///
+/// Messages come in order of delivery: IMU samples and images at their stamps, a scan at its end; of those delivered
+/// at one time the IMU sample first, then the image, then the scan.
+RunRecord run_session(const Scenario& scenario, const World& world, const RayScene& rays,
+                      const SessionOptions& options);
+
+/// The same with an estimator of the caller's.
+RunRecord run_session(const Scenario& scenario, const World& world, const RayScene& rays, const SessionOptions& options,
+                      Estimator& estimator);
 
 }  // namespace plumbline

@@ -24,12 +24,13 @@ std::vector<std::uint16_t> rings_of(const std::vector<double>& elevation_deg) {
   std::stable_sort(from_lowest.begin(), from_lowest.end(),
                    [&](std::size_t a, std::size_t b) { return elevation_deg[a] < elevation_deg[b]; });
   std::vector<std::uint16_t> ring(elevation_deg.size());
-  for (std::size_t rank = 0; rank < from_lowest.size(); ++rank) ring[from_lowest[rank]] = static_cast<std::uint16_t>(rank);
+  for (std::size_t rank = 0; rank < from_lowest.size(); ++rank)
+    ring[from_lowest[rank]] = static_cast<std::uint16_t>(rank);
   return ring;
 }
 
-// Between the poses at both ends of a firing cycle. Over its 0.06 ms the normalised sum of the quaternions is the geodesic
-// to within 1e-11 rad at 10 rad/s, and costs a tenth of it.
+// Between the poses at both ends of a firing cycle. Over its 0.06 ms the normalised sum of the quaternions is the
+// geodesic to within 1e-11 rad at 10 rad/s, and costs a tenth of it.
 Pose pose_within_cycle(const Pose& begin, const Pose& end, double ratio) {
   const double toward_end = begin.rotation.dot(end.rotation) < 0.0 ? -ratio : ratio;
   const Eigen::Vector4d sum = (1.0 - ratio) * begin.rotation.coeffs() + toward_end * end.rotation.coeffs();
@@ -38,11 +39,11 @@ Pose pose_within_cycle(const Pose& begin, const Pose& end, double ratio) {
 
 void require_cover(const PoseTrack& track, std::int64_t start_ns, std::int64_t end_ns) {
   if (track.covers(start_ns) && track.covers(end_ns)) return;
-  throw std::invalid_argument("lidar: the motion must cover the revolution from " + std::to_string(start_ns) + " to " +
-                              std::to_string(end_ns) + " ns, but " +
-                              (track.empty() ? "is empty"
-                                             : "spans " + std::to_string(track.first_ns()) + " to " +
-                                                   std::to_string(track.last_ns()) + " ns"));
+  throw std::invalid_argument(
+      "lidar: the motion must cover the revolution from " + std::to_string(start_ns) + " to " + std::to_string(end_ns) +
+      " ns, but " +
+      (track.empty() ? "is empty"
+                     : "spans " + std::to_string(track.first_ns()) + " to " + std::to_string(track.last_ns()) + " ns"));
 }
 
 }  // namespace
@@ -66,8 +67,8 @@ Lidar::Lidar(LidarModel model, const Pose& body_from_lidar, std::uint64_t seed)
 
 std::int64_t Lidar::period_ns() const { return nanoseconds(1.0 / model_.rate_hz); }
 
-LidarScan Lidar::scan(const RayScene& scene, const World& world, const PoseTrack& world_from_body, std::int64_t start_ns,
-                      std::int64_t scan_index) const {
+LidarScan Lidar::scan(const RayScene& scene, const World& world, const PoseTrack& world_from_body,
+                      std::int64_t start_ns, std::int64_t scan_index) const {
   LidarScan scan{start_ns, start_ns + period_ns(), {}};
   require_cover(world_from_body, scan.stamp_ns, scan.end_ns);
   // Whole cycles only: the head's remaining part of a cycle falls to nobody.
@@ -127,7 +128,8 @@ double Lidar::measured_range(double true_range_m, const Laser& laser, double ran
 }
 
 // The light received from an extended Lambertian target goes with reflectivity cos(incidence) / range^2 (Hoefle and
-// Pfeifer, ISPRS J. 62(6), 2007, eq. 7, without the air's absorption); less than the data sheet's weakest target is lost.
+// Pfeifer, ISPRS J. 62(6), 2007, eq. 7, without the air's absorption); less than the data sheet's weakest target is
+// lost.
 bool Lidar::is_detected(double range_m, double reflectivity_towards_lidar) const {
   if (!noise_enabled) return true;
   const double relative_range = range_m / model_.range_at_10_percent_m;

@@ -15,17 +15,17 @@ namespace plumbline {
 /// A spinning lidar as its data sheet describes it.
 struct LidarModel {
   std::string name = "vlp16";
-  std::vector<double> elevation_deg;        ///< per laser, in firing order
-  std::vector<double> vertical_offset_m;    ///< of the laser's origin, per laser
-  std::vector<double> laser_offset_s;       ///< firing time within a cycle, per laser
+  std::vector<double> elevation_deg;      ///< per laser, in firing order
+  std::vector<double> vertical_offset_m;  ///< of the laser's origin, per laser
+  std::vector<double> laser_offset_s;     ///< firing time within a cycle, per laser
   double cycle_s = 55.296e-6;
   double rate_hz = 10.0;
   double min_range_m = 0.5;
   double max_range_m = 100.0;
-  double range_at_10_percent_m = 50.0;      ///< how far a plate of 10 % reflectivity, seen head-on, still gives a return
-  double range_sigma_m = 0.012;             ///< white, per return
+  double range_at_10_percent_m = 50.0;  ///< how far a plate of 10 % reflectivity, seen head-on, still gives a return
+  double range_sigma_m = 0.012;         ///< white, per return
   double range_resolution_m = 0.002;
-  double ring_bias_sigma_m = 0.0;           ///< constant per laser, drawn per seed
+  double ring_bias_sigma_m = 0.0;  ///< constant per laser, drawn per seed
 };
 
 /// Velodyne VLP-16: manual 63-9243, vertical angles, vertical offsets and firing times (p. 54); precision as measured.

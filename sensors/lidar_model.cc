@@ -59,9 +59,10 @@ void validate_or_throw(const LidarModel& model) {
           "1e-7 to one revolution");
   require_lasers(model);
   require(model.min_range_m >= 0.0, model, "min_range_m", model.min_range_m, "0 or more");
-  require(model.max_range_m > model.min_range_m && std::isfinite(model.max_range_m), model, "max_range_m", model.max_range_m,
-          "more than min_range_m");
-  require(model.range_at_10_percent_m > 0.0, model, "range_at_10_percent_m", model.range_at_10_percent_m, "more than 0");
+  require(model.max_range_m > model.min_range_m && std::isfinite(model.max_range_m), model, "max_range_m",
+          model.max_range_m, "more than min_range_m");
+  require(model.range_at_10_percent_m > 0.0, model, "range_at_10_percent_m", model.range_at_10_percent_m,
+          "more than 0");
   require(model.range_sigma_m >= 0.0 && std::isfinite(model.range_sigma_m), model, "range_sigma_m", model.range_sigma_m,
           "0 or more");
   require(model.range_resolution_m >= 0.0 && std::isfinite(model.range_resolution_m), model, "range_resolution_m",

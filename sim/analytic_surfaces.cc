@@ -24,8 +24,8 @@ Chord hull(const Chord& a, const Chord& b) {
   return {std::min(a.enter, b.enter), std::max(a.leave, b.leave)};
 }
 
-// Where |origin + t direction| <= radius, in as many dimensions as the vectors have. Works from the line's nearest point
-// to the centre, so that a far origin costs no digits.
+// Where |origin + t direction| <= radius, in as many dimensions as the vectors have. Works from the line's nearest
+// point to the centre, so that a far origin costs no digits.
 template <typename Vector>
 Chord chord_of_ball(const Vector& origin, const Vector& direction, double radius) {
   const double length_squared = direction.squaredNorm();
@@ -44,14 +44,16 @@ Chord chord_of_slab(double origin, double direction, double half_width) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-Chord chord_of_cylinder(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double radius, double half_length) {
+Chord chord_of_cylinder(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double radius,
+                        double half_length) {
   const Eigen::Vector2d flat_origin = origin.head<2>();
   const Eigen::Vector2d flat_direction = direction.head<2>();
   return intersection(chord_of_ball(flat_origin, flat_direction, radius),
                       chord_of_slab(origin.z(), direction.z(), half_length));
 }
 
-Chord chord_of_capsule(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double radius, double half_length) {
+Chord chord_of_capsule(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double radius,
+                       double half_length) {
   const Eigen::Vector3d to_cap(0.0, 0.0, half_length);
   const Eigen::Vector3d from_top = origin - to_cap;
   const Eigen::Vector3d from_bottom = origin + to_cap;
@@ -59,7 +61,8 @@ Chord chord_of_capsule(const Eigen::Vector3d& origin, const Eigen::Vector3d& dir
   return hull(caps, chord_of_cylinder(origin, direction, radius, half_length));
 }
 
-Chord chord_of_ellipsoid(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, const Eigen::Vector3d& semi_axes) {
+Chord chord_of_ellipsoid(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                         const Eigen::Vector3d& semi_axes) {
   const Eigen::Vector3d unit_origin = origin.cwiseQuotient(semi_axes);
   const Eigen::Vector3d unit_direction = direction.cwiseQuotient(semi_axes);
   return chord_of_ball(unit_origin, unit_direction, 1.0);
@@ -68,18 +71,24 @@ Chord chord_of_ellipsoid(const Eigen::Vector3d& origin, const Eigen::Vector3d& d
 Chord chord_of_solid(const AnalyticSurface& surface, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
   const Eigen::Vector3d& size = surface.size;
   switch (surface.kind) {
-    case AnalyticSurface::Kind::kSphere: return chord_of_ball(origin, direction, size[0]);
-    case AnalyticSurface::Kind::kCapsule: return chord_of_capsule(origin, direction, size[0], size[1]);
-    case AnalyticSurface::Kind::kEllipsoid: return chord_of_ellipsoid(origin, direction, size);
-    case AnalyticSurface::Kind::kCylinder: return chord_of_cylinder(origin, direction, size[0], size[1]);
-    case AnalyticSurface::Kind::kPlane: break;  // no solid
+    case AnalyticSurface::Kind::kSphere:
+      return chord_of_ball(origin, direction, size[0]);
+    case AnalyticSurface::Kind::kCapsule:
+      return chord_of_capsule(origin, direction, size[0], size[1]);
+    case AnalyticSurface::Kind::kEllipsoid:
+      return chord_of_ellipsoid(origin, direction, size);
+    case AnalyticSurface::Kind::kCylinder:
+      return chord_of_cylinder(origin, direction, size[0], size[1]);
+    case AnalyticSurface::Kind::kPlane:
+      break;  // no solid
   }
   return {};
 }
 
 bool within(double coordinate, double half_size) { return half_size <= 0.0 || std::abs(coordinate) <= half_size; }
 
-std::optional<double> plane_range(const Eigen::Vector3d& size, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
+std::optional<double> plane_range(const Eigen::Vector3d& size, const Eigen::Vector3d& origin,
+                                  const Eigen::Vector3d& direction) {
   if (direction.z() >= 0.0) return std::nullopt;
   const double range = -origin.z() / direction.z();
   const Eigen::Vector3d point = origin + range * direction;
@@ -109,18 +118,24 @@ Eigen::Vector3d cylinder_normal(const Eigen::Vector3d& point, double radius, dou
 Eigen::Vector3d normal_in_geom(const AnalyticSurface& surface, const Eigen::Vector3d& point) {
   const Eigen::Vector3d& size = surface.size;
   switch (surface.kind) {
-    case AnalyticSurface::Kind::kPlane: return Eigen::Vector3d::UnitZ();
-    case AnalyticSurface::Kind::kSphere: return point;
+    case AnalyticSurface::Kind::kPlane:
+      return Eigen::Vector3d::UnitZ();
+    case AnalyticSurface::Kind::kSphere:
+      return point;
     case AnalyticSurface::Kind::kCapsule:
       return point - std::clamp(point.z(), -size[1], size[1]) * Eigen::Vector3d::UnitZ();
-    case AnalyticSurface::Kind::kEllipsoid: return point.cwiseQuotient(size.cwiseAbs2());
-    case AnalyticSurface::Kind::kCylinder: return cylinder_normal(point, size[0], size[1]);
+    case AnalyticSurface::Kind::kEllipsoid:
+      return point.cwiseQuotient(size.cwiseAbs2());
+    case AnalyticSurface::Kind::kCylinder:
+      return cylinder_normal(point, size[0], size[1]);
   }
   return Eigen::Vector3d::UnitZ();
 }
 
 double distance_to_plane(const Eigen::Vector3d& size, const Eigen::Vector3d& point) {
-  const auto beyond = [](double coordinate, double half) { return half <= 0.0 ? 0.0 : std::max(0.0, std::abs(coordinate) - half); };
+  const auto beyond = [](double coordinate, double half) {
+    return half <= 0.0 ? 0.0 : std::max(0.0, std::abs(coordinate) - half);
+  };
   return Eigen::Vector3d(beyond(point.x(), size[0]), beyond(point.y(), size[1]), point.z()).norm();
 }
 
@@ -161,10 +176,18 @@ Eigen::AlignedBox3d bounds_in_world(const AnalyticSurface& surface) {
   const Eigen::Array3d axis = rotation.col(2).array().abs();
   Eigen::Array3d half = Eigen::Array3d::Zero();
   switch (surface.kind) {
-    case AnalyticSurface::Kind::kPlane: half = rotation.leftCols<2>().cwiseAbs() * size.head<2>(); break;
-    case AnalyticSurface::Kind::kSphere: half = size[0]; break;
-    case AnalyticSurface::Kind::kCapsule: half = axis * size[1] + size[0]; break;
-    case AnalyticSurface::Kind::kEllipsoid: half = (rotation * size.asDiagonal()).rowwise().norm(); break;
+    case AnalyticSurface::Kind::kPlane:
+      half = rotation.leftCols<2>().cwiseAbs() * size.head<2>();
+      break;
+    case AnalyticSurface::Kind::kSphere:
+      half = size[0];
+      break;
+    case AnalyticSurface::Kind::kCapsule:
+      half = axis * size[1] + size[0];
+      break;
+    case AnalyticSurface::Kind::kEllipsoid:
+      half = (rotation * size.asDiagonal()).rowwise().norm();
+      break;
     case AnalyticSurface::Kind::kCylinder:
       half = axis * size[1] + (1.0 - axis.square()).max(0.0).sqrt() * size[0];
       break;
@@ -188,12 +211,16 @@ double distance(const AnalyticSurface& surface, const Eigen::Vector3d& point_in_
       surface.world_from_geom_rotation.transpose() * (point_in_world - surface.position_in_world);
   const Eigen::Vector3d& size = surface.size;
   switch (surface.kind) {
-    case AnalyticSurface::Kind::kPlane: return distance_to_plane(size, point);
-    case AnalyticSurface::Kind::kSphere: return std::abs(point.norm() - size[0]);
+    case AnalyticSurface::Kind::kPlane:
+      return distance_to_plane(size, point);
+    case AnalyticSurface::Kind::kSphere:
+      return std::abs(point.norm() - size[0]);
     case AnalyticSurface::Kind::kCapsule:
       return std::abs((point - std::clamp(point.z(), -size[1], size[1]) * Eigen::Vector3d::UnitZ()).norm() - size[0]);
-    case AnalyticSurface::Kind::kEllipsoid: return distance_to_ellipsoid(size, point);
-    case AnalyticSurface::Kind::kCylinder: return distance_to_cylinder(point, size[0], size[1]);
+    case AnalyticSurface::Kind::kEllipsoid:
+      return distance_to_ellipsoid(size, point);
+    case AnalyticSurface::Kind::kCylinder:
+      return distance_to_cylinder(point, size[0], size[1]);
   }
   return kInfinity;
 }

@@ -34,7 +34,8 @@ bool is_bounded(const AnalyticSurface& surface);
 /// Axis-aligned, of a bounded surface.
 Eigen::AlignedBox3d bounds_in_world(const AnalyticSurface& surface);
 
-/// The first crossing of the surface in [min_range_m, max_range_m]; from inside a solid that is where the ray leaves it.
+/// The first crossing of the surface in [min_range_m, max_range_m]; from inside a solid that is where the ray leaves
+/// it.
 /// @param direction_in_world  unit length
 std::optional<SurfaceHit> intersect(const AnalyticSurface& surface, const Eigen::Vector3d& origin_in_world,
                                     const Eigen::Vector3d& direction_in_world, double min_range_m, double max_range_m);

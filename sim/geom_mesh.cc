@@ -19,7 +19,7 @@ void add_quad(TriangleMesh& mesh, Index a, Index b, Index c, Index d) {
 }
 
 Eigen::Vector3d size_of(const mjModel& model, int geom) {
-  return Eigen::Map<const Eigen::Vector3d>(model.geom_size + 3 * geom);
+  return Eigen::Map<const Eigen::Vector3d>(model.geom_size + 3L * geom);
 }
 
 // A size of 0 makes a MuJoCo plane infinite along that axis.
@@ -93,7 +93,8 @@ int sphere_segments(double radius, double tolerance_m) {
   return segments + segments % 2;
 }
 
-// Latitudes of the lower (sign -1) or upper half of a sphere about height z, from below; poles excluded, equator included.
+// Latitudes of the lower (sign -1) or upper half of a sphere about height z, from below; poles excluded, equator
+// included.
 void add_hemisphere(std::vector<ProfilePoint>& rings, double radius, double z, int segments, int sign) {
   const int quarter = (segments + 3) / 4;
   for (int i = 1; i <= quarter; ++i) {
@@ -130,11 +131,11 @@ TriangleMesh cylinder_mesh(double radius, double half_length, double tolerance_m
 
 TriangleMesh compiled_mesh(const mjModel& model, int mesh_id) {
   TriangleMesh mesh;
-  const float* vertex = model.mesh_vert + 3 * model.mesh_vertadr[mesh_id];
+  const float* vertex = model.mesh_vert + 3L * model.mesh_vertadr[mesh_id];
   for (int i = 0; i < model.mesh_vertnum[mesh_id]; ++i, vertex += 3) {
     mesh.vertices.emplace_back(vertex[0], vertex[1], vertex[2]);
   }
-  const int* face = model.mesh_face + 3 * model.mesh_faceadr[mesh_id];
+  const int* face = model.mesh_face + 3L * model.mesh_faceadr[mesh_id];
   for (int i = 0; i < model.mesh_facenum[mesh_id]; ++i, face += 3) {
     mesh.triangles.push_back({static_cast<Index>(face[0]), static_cast<Index>(face[1]), static_cast<Index>(face[2])});
   }
@@ -169,7 +170,7 @@ void add_base(TriangleMesh& mesh, const std::vector<Index>& rim, float base_z) {
 TriangleMesh height_field_mesh(const mjModel& model, int field) {
   const auto rows = static_cast<Index>(model.hfield_nrow[field]);
   const auto columns = static_cast<Index>(model.hfield_ncol[field]);
-  const mjtNum* size = model.hfield_size + 4 * field;  // half x, half y, height of 1, depth of the base
+  const mjtNum* size = model.hfield_size + 4L * field;  // half x, half y, height of 1, depth of the base
   const float* heights = model.hfield_data + model.hfield_adr[field];
   TriangleMesh mesh;
   for (Index r = 0; r < rows; ++r) {
@@ -197,14 +198,22 @@ TriangleMesh mesh_of_geom(const mjModel& model, int geom, double tolerance_m, do
   }
   const Eigen::Vector3d size = size_of(model, geom);
   switch (model.geom_type[geom]) {
-    case mjGEOM_PLANE: return plane_mesh(size, plane_extent_m);
-    case mjGEOM_HFIELD: return height_field_mesh(model, model.geom_dataid[geom]);
-    case mjGEOM_SPHERE: return ellipsoid_mesh(Eigen::Vector3d::Constant(size[0]), tolerance_m);
-    case mjGEOM_CAPSULE: return capsule_mesh(size[0], size[1], tolerance_m);
-    case mjGEOM_ELLIPSOID: return ellipsoid_mesh(size, tolerance_m);
-    case mjGEOM_CYLINDER: return cylinder_mesh(size[0], size[1], tolerance_m);
-    case mjGEOM_BOX: return box_mesh(size);
-    case mjGEOM_MESH: return compiled_mesh(model, model.geom_dataid[geom]);
+    case mjGEOM_PLANE:
+      return plane_mesh(size, plane_extent_m);
+    case mjGEOM_HFIELD:
+      return height_field_mesh(model, model.geom_dataid[geom]);
+    case mjGEOM_SPHERE:
+      return ellipsoid_mesh(Eigen::Vector3d::Constant(size[0]), tolerance_m);
+    case mjGEOM_CAPSULE:
+      return capsule_mesh(size[0], size[1], tolerance_m);
+    case mjGEOM_ELLIPSOID:
+      return ellipsoid_mesh(size, tolerance_m);
+    case mjGEOM_CYLINDER:
+      return cylinder_mesh(size[0], size[1], tolerance_m);
+    case mjGEOM_BOX:
+      return box_mesh(size);
+    case mjGEOM_MESH:
+      return compiled_mesh(model, model.geom_dataid[geom]);
     default:
       throw std::invalid_argument("mesh_of_geom: geom " + std::to_string(geom) + " is of type " +
                                   std::to_string(model.geom_type[geom]) + ", which has no surface");

@@ -39,10 +39,17 @@ std::string escape_attribute(std::string_view text) {
   std::string escaped;
   for (const char c : text) {
     switch (c) {
-      case '&': escaped += "&amp;"; break;
-      case '<': escaped += "&lt;"; break;
-      case '"': escaped += "&quot;"; break;
-      default: escaped += c;
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += c;
     }
   }
   return escaped;
@@ -50,8 +57,8 @@ std::string escape_attribute(std::string_view text) {
 
 // Includes the scene untouched, whatever it holds, and adds the rig body to its world.
 std::string wrapper_mjcf(std::string_view included_file) {
-  return "<mujoco>\n  <include file=\"" + escape_attribute(included_file) +
-         "\"/>\n  <worldbody>\n    <body name=\"" + kRigBodyName + "\" mocap=\"true\"/>\n  </worldbody>\n</mujoco>\n";
+  return "<mujoco>\n  <include file=\"" + escape_attribute(included_file) + "\"/>\n  <worldbody>\n    <body name=\"" +
+         kRigBodyName + "\" mocap=\"true\"/>\n  </worldbody>\n</mujoco>\n";
 }
 
 class VirtualFiles {
@@ -86,7 +93,11 @@ void check_finite(const mjModel& model) {
                                   "' has a size or pose that is not finite");
     }
   }
-  if (!all_finite(model.mesh_vert, 3 * model.nmeshvert)) throw std::invalid_argument("a mesh has a vertex that is not finite");
+  if (!all_finite(model.mesh_vert, 3 * model.nmeshvert))
+    throw std::invalid_argument("a mesh has a vertex that is not finite");
+  if (!all_finite(model.hfield_data, model.nhfielddata) || !all_finite(model.hfield_size, 4 * model.nhfield)) {
+    throw std::invalid_argument("a height field is not finite");
+  }
   if (!all_finite(model.body_pos, 3 * model.nbody) || !all_finite(model.body_quat, 4 * model.nbody)) {
     throw std::invalid_argument("a body has a pose that is not finite");
   }
@@ -128,9 +139,8 @@ std::string missing_files(const std::filesystem::path& path) {
   std::string missing;
   for (const std::string& file : attribute_values(text, "file")) {
     std::error_code error;
-    const bool found = std::any_of(folders.begin(), folders.end(), [&](const auto& folder) {
-      return std::filesystem::exists(folder / file, error);
-    });
+    const bool found = std::any_of(folders.begin(), folders.end(),
+                                   [&](const auto& folder) { return std::filesystem::exists(folder / file, error); });
     if (!found) missing += (missing.empty() ? " (missing files: " : ", ") + file;
   }
   return missing.empty() ? missing : missing + ")";

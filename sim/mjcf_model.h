@@ -9,8 +9,12 @@ struct mjData_;
 
 namespace plumbline {
 
-struct MjModelDeleter { void operator()(mjModel_* model) const; };
-struct MjDataDeleter { void operator()(mjData_* data) const; };
+struct MjModelDeleter {
+  void operator()(mjModel_* model) const;
+};
+struct MjDataDeleter {
+  void operator()(mjData_* data) const;
+};
 using MjModelPtr = std::unique_ptr<mjModel_, MjModelDeleter>;
 using MjDataPtr = std::unique_ptr<mjData_, MjDataDeleter>;
 
@@ -21,7 +25,8 @@ inline constexpr char kRigBodyName[] = "plumbline_rig";
 /// @throws std::invalid_argument with MuJoCo's message.
 MjModelPtr compile_mjcf(const std::string& mjcf);
 
-/// The same from a file; meshes, textures and includes resolve relative to it. Nothing is written, beside it or elsewhere.
+/// The same from a file; meshes, textures and includes resolve relative to it. Nothing is written, beside it or
+/// elsewhere.
 /// @throws std::invalid_argument naming the file if it is missing, over 64 MB, or rejected by MuJoCo.
 MjModelPtr compile_mjcf_file(const std::filesystem::path& path);
 

@@ -59,11 +59,16 @@ bool is_analytic(int geom_type) {
 
 AnalyticSurface::Kind kind_of(int geom_type) {
   switch (geom_type) {
-    case mjGEOM_PLANE: return AnalyticSurface::Kind::kPlane;
-    case mjGEOM_CAPSULE: return AnalyticSurface::Kind::kCapsule;
-    case mjGEOM_ELLIPSOID: return AnalyticSurface::Kind::kEllipsoid;
-    case mjGEOM_CYLINDER: return AnalyticSurface::Kind::kCylinder;
-    default: return AnalyticSurface::Kind::kSphere;
+    case mjGEOM_PLANE:
+      return AnalyticSurface::Kind::kPlane;
+    case mjGEOM_CAPSULE:
+      return AnalyticSurface::Kind::kCapsule;
+    case mjGEOM_ELLIPSOID:
+      return AnalyticSurface::Kind::kEllipsoid;
+    case mjGEOM_CYLINDER:
+      return AnalyticSurface::Kind::kCylinder;
+    default:
+      return AnalyticSurface::Kind::kSphere;
   }
 }
 
@@ -126,15 +131,16 @@ void RayScene::Impl::add_geoms(const World& world) {
   const mjModel& model = world.model();
   for (int geom = 0; geom < model.ngeom; ++geom) {
     if (model.geom_bodyid[geom] == world.rig_body() || is_transparent(model, geom)) continue;
-    const Eigen::Vector3d position = Eigen::Map<const Eigen::Vector3d>(world.data().geom_xpos + 3 * geom);
+    const Eigen::Vector3d position = Eigen::Map<const Eigen::Vector3d>(world.data().geom_xpos + 3L * geom);
     const Eigen::Matrix3d rotation =
-        Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(world.data().geom_xmat + 9 * geom);
+        Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(world.data().geom_xmat + 9L * geom);
     if (!is_analytic(model.geom_type[geom])) {
       triangles.append(mesh_of_geom(model, geom, kUnused, kUnused), rotation, position, geom);
       continue;
     }
     const AnalyticSurface surface{kind_of(model.geom_type[geom]),
-                                  Eigen::Map<const Eigen::Vector3d>(model.geom_size + 3 * geom), rotation, position, geom};
+                                  Eigen::Map<const Eigen::Vector3d>(model.geom_size + 3L * geom), rotation, position,
+                                  geom};
     (is_bounded(surface) ? surfaces : infinite_planes).push_back(surface);
   }
 }
@@ -149,13 +155,16 @@ void RayScene::Impl::centre_on_geometry() {
 void RayScene::Impl::attach_triangles() {
   if (triangles.triangles().empty()) return;
   const Geometry geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-  auto* vertex = static_cast<Eigen::Vector3f*>(rtcSetNewGeometryBuffer(
-      geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Eigen::Vector3f), triangles.vertices().size()));
-  auto* index = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-      geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(TriangleSoup::Triangle), triangles.triangles().size()));
+  auto* vertex = static_cast<Eigen::Vector3f*>(rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0,
+                                                                       RTC_FORMAT_FLOAT3, sizeof(Eigen::Vector3f),
+                                                                       triangles.vertices().size()));
+  auto* index = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0,
+                                                                    RTC_FORMAT_UINT3, sizeof(TriangleSoup::Triangle),
+                                                                    triangles.triangles().size()));
   errors.throw_if_failed();
   for (const Eigen::Vector3d& in_world : triangles.vertices()) *vertex++ = (in_world - centre).cast<float>();
-  for (const TriangleSoup::Triangle& triangle : triangles.triangles()) index = std::copy(triangle.begin(), triangle.end(), index);
+  for (const TriangleSoup::Triangle& triangle : triangles.triangles())
+    index = std::copy(triangle.begin(), triangle.end(), index);
   rtcCommitGeometry(geometry.get());
   triangle_geometry = rtcAttachGeometry(scene.get(), geometry.get());
 }
@@ -226,8 +235,8 @@ RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 RayScene::~RayScene() = default;
 
-RayHit RayScene::cast(const Eigen::Vector3d& origin_in_world, const Eigen::Vector3d& direction_in_world, double min_range_m,
-                      double max_range_m) const {
+RayHit RayScene::cast(const Eigen::Vector3d& origin_in_world, const Eigen::Vector3d& direction_in_world,
+                      double min_range_m, double max_range_m) const {
   RayHit best;
   best.range_m = max_range_m;
   for (const AnalyticSurface& plane : impl_->infinite_planes) {
@@ -242,8 +251,18 @@ RayHit RayScene::cast(const Eigen::Vector3d& origin_in_world, const Eigen::Vecto
   RTCRayHit found{};
   const Eigen::Vector3f origin = (origin_in_world - impl_->centre).cast<float>();
   const Eigen::Vector3f direction = direction_in_world.cast<float>();
-  found.ray = {origin.x(), origin.y(), origin.z(), static_cast<float>(min_range_m), direction.x(), direction.y(), direction.z(),
-               0.0F, static_cast<float>(best.range_m), ~0U, 0U, 0U};
+  found.ray = {origin.x(),
+               origin.y(),
+               origin.z(),
+               static_cast<float>(min_range_m),
+               direction.x(),
+               direction.y(),
+               direction.z(),
+               0.0F,
+               static_cast<float>(best.range_m),
+               ~0U,
+               0U,
+               0U};
   found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(impl_->scene.get(), &query, &found);
   if (found.hit.geomID != RTC_INVALID_GEOMETRY_ID) best = impl_->hit_of(found, query);

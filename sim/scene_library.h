@@ -16,6 +16,7 @@ struct SceneParameter {
   double min = 0.0;
   double max = 0.0;
   std::string meaning;
+  bool whole = false;  ///< only whole numbers make sense
 };
 
 using SceneValues = std::map<std::string, double>;

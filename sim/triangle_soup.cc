@@ -30,8 +30,8 @@ std::array<Eigen::Vector3d, 3> TriangleSoup::corners(std::uint32_t triangle) con
   return {vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]};
 }
 
-double TriangleSoup::refined_range(std::uint32_t triangle, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                                   double estimate_m) const {
+double TriangleSoup::refined_range(std::uint32_t triangle, const Eigen::Vector3d& origin,
+                                   const Eigen::Vector3d& direction, double estimate_m) const {
   const auto [a, b, c] = corners(triangle);
   const Eigen::Vector3d normal = (b - a).cross(c - a);
   const double closing = normal.dot(direction);
@@ -53,7 +53,8 @@ double TriangleSoup::distance(std::uint32_t triangle, const Eigen::Vector3d& poi
   const bool over_face = normal.dot((b - a).cross(point - a)) >= 0.0 && normal.dot((c - b).cross(point - b)) >= 0.0 &&
                          normal.dot((a - c).cross(point - c)) >= 0.0;
   if (over_face && normal.squaredNorm() > 0.0) return std::abs(normal.dot(point - a)) / normal.norm();
-  return std::min({distance_to_segment(a, b, point), distance_to_segment(b, c, point), distance_to_segment(c, a, point)});
+  return std::min(
+      {distance_to_segment(a, b, point), distance_to_segment(b, c, point), distance_to_segment(c, a, point)});
 }
 
 }  // namespace plumbline

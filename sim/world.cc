@@ -38,7 +38,8 @@ std::string rgba_name(const float* rgba) {
 }
 
 int index_of(const std::vector<Material>& materials, const std::string& name) {
-  const auto found = std::find_if(materials.begin(), materials.end(), [&](const Material& m) { return m.name == name; });
+  const auto found =
+      std::find_if(materials.begin(), materials.end(), [&](const Material& m) { return m.name == name; });
   return found == materials.end() ? -1 : static_cast<int>(found - materials.begin());
 }
 
@@ -56,8 +57,7 @@ std::vector<int> assign_materials(const mjModel& model, std::vector<Material>& m
   for (int geom = 0; geom < model.ngeom; ++geom) {
     const int mjcf_material = model.geom_matid[geom];
     const float* rgba = model.geom_rgba + 4 * geom;
-    const std::string name =
-        mjcf_material >= 0 ? mj_id2name(&model, mjOBJ_MATERIAL, mjcf_material) : rgba_name(rgba);
+    const std::string name = mjcf_material >= 0 ? mj_id2name(&model, mjOBJ_MATERIAL, mjcf_material) : rgba_name(rgba);
     int index = index_of(materials, name);
     if (index < 0 && mjcf_material >= 0) {
       throw std::invalid_argument("scene: a geom has material '" + name + "', which the scene does not describe");

@@ -25,11 +25,11 @@ struct Material {
 struct Lamp {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m], world
   double intensity_cd = 400.0;                         ///< luminous intensity [cd = lux m^2]
-  double reach_m = 15.0;                               ///< its light fades smoothly to nothing here, so that far lamps cost nothing
+  double reach_m = 15.0;  ///< its light fades smoothly to nothing here, so that far lamps cost nothing
 };
 
-/// The smooth fading of a lamp's light towards its reach: 1 near by, 0 from reach_m on. A lamp's illuminance of a surface
-/// is intensity_cd * cos(incidence) / distance^2 * lamp_window(distance, reach); nothing casts shadows.
+/// The smooth fading of a lamp's light towards its reach: 1 near by, 0 from reach_m on. A lamp's illuminance of a
+/// surface is intensity_cd * cos(incidence) / distance^2 * lamp_window(distance, reach); nothing casts shadows.
 double lamp_window(double distance_m, double reach_m);
 
 /// All lamps and the ambient light are multiplied by `factor` from `start_s` on, until the next entry.
@@ -43,8 +43,8 @@ struct SceneDescription {
   std::string mjcf;
   std::vector<Material> materials;
   std::vector<Lamp> lamps;
-  double ambient_lux = 30.0;       ///< illuminance that every surface gets from everywhere
-  double sky_luminance = 0.0;      ///< of rays that hit nothing [cd/m^2]
+  double ambient_lux = 30.0;   ///< illuminance that every surface gets from everywhere
+  double sky_luminance = 0.0;  ///< of rays that hit nothing [cd/m^2]
 };
 
 /// The simulated world: a compiled MuJoCo model with looks and lamps.
@@ -78,8 +78,8 @@ class World {
   double sky_luminance() const { return sky_luminance_; }
   std::uint64_t seed() const { return seed_; }
 
-  /// Scales lamps and ambient light so that a horizontal plate at the median lit place gets `lux`. The lit places are the
-  /// surfaces below the lamps and 2 m around them.
+  /// Scales lamps and ambient light so that a horizontal plate at the median lit place gets `lux`. The lit places are
+  /// the surfaces below the lamps and 2 m around them.
   /// @throws std::invalid_argument unless lux is finite and not negative.
   void set_light_level(double lux);
 

@@ -2,9 +2,8 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
-
-#include "estimator/geometry/so3.h"
 
 namespace plumbline {
 namespace {
@@ -15,13 +14,45 @@ struct Scatter {
   Eigen::Matrix3d eigenvectors = Eigen::Matrix3d::Identity();
 };
 
-Scatter scatter_of(const NearestSamples& neighbours) {
+/// Positions of some neighbours, nearest first.
+struct Positions {
+  std::array<Eigen::Vector3d, NearestSamples::kCapacity> at;
+  int count = 0;
+
+  void push(const Eigen::Vector3d& position) { at[static_cast<std::size_t>(count++)] = position; }
+  const Eigen::Vector3d& operator[](int i) const { return at[static_cast<std::size_t>(i)]; }
+};
+
+Positions all_positions(const NearestSamples& neighbours) {
+  Positions positions;
+  for (int i = 0; i < neighbours.size(); ++i) positions.push(neighbours[i].position);
+  return positions;
+}
+
+/// The neighbours within `reach` of the line through the nearest one and another that has the most such neighbours. Two
+/// edges of a door frame run a few centimetres apart; a line through the neighbours of both would be neither.
+Positions largest_line(const Positions& from, double reach) {
+  Positions best;
+  for (int j = 1; j < from.count; ++j) {
+    const Eigen::Vector3d along = from[j] - from[0];
+    const double length = along.norm();
+    if (length <= 0.0) continue;
+    Positions on_line;
+    for (int i = 0; i < from.count; ++i) {
+      if ((from[i] - from[0]).cross(along).norm() <= reach * length) on_line.push(from[i]);
+    }
+    if (on_line.count > best.count) best = on_line;
+  }
+  return best;
+}
+
+Scatter scatter_of(const Positions& positions) {
   Scatter result;
-  const double share = 1.0 / neighbours.size();
-  for (int i = 0; i < neighbours.size(); ++i) result.centroid += share * neighbours[i].position;
+  const double share = 1.0 / positions.count;
+  for (int i = 0; i < positions.count; ++i) result.centroid += share * positions[i];
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (int i = 0; i < neighbours.size(); ++i) {
-    const Eigen::Vector3d d = neighbours[i].position - result.centroid;
+  for (int i = 0; i < positions.count; ++i) {
+    const Eigen::Vector3d d = positions[i] - result.centroid;
     covariance += share * d * d.transpose();
   }
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
@@ -51,36 +82,30 @@ Vector6d component_jacobian(const Eigen::Vector3d& direction, const Eigen::Vecto
 }  // namespace
 
 std::optional<MapPlane> fit_plane(const NearestSamples& neighbours, const FitLimits& limits) {
-  const int n = neighbours.size();
-  if (n < limits.least_neighbours) return std::nullopt;
-  const Scatter s = scatter_of(neighbours);
+  const Positions points = all_positions(neighbours);
+  if (points.count < limits.least_neighbours) return std::nullopt;
+  const Scatter s = scatter_of(points);
   // Neighbours on a single ring are collinear: their second eigenvalue is as small as the first.
   if (s.eigenvalues[1] < limits.least_spread_m * limits.least_spread_m) return std::nullopt;
   if (s.eigenvalues[0] * limits.ratio > s.eigenvalues[1]) return std::nullopt;
-  if (tilt_sigma(s.eigenvalues[0], s.eigenvalues[1], n, 3, limits.map_sigma_m) > limits.largest_tilt_sigma) {
-    return std::nullopt;
-  }
+  const double tilt = tilt_sigma(s.eigenvalues[0], s.eigenvalues[1], points.count, 3, limits.map_sigma_m);
+  if (tilt > limits.largest_tilt_sigma) return std::nullopt;
   const Eigen::Vector3d normal = s.eigenvectors.col(0);
-  for (int i = 0; i < n; ++i) {
-    if (std::abs(normal.dot(neighbours[i].position - s.centroid)) > limits.largest_residual_m) return std::nullopt;
+  for (int i = 0; i < points.count; ++i) {
+    if (std::abs(normal.dot(points[i] - s.centroid)) > limits.largest_residual_m) return std::nullopt;
   }
   return MapPlane{normal, normal.dot(s.centroid)};
 }
 
 std::optional<MapLine> fit_line(const NearestSamples& neighbours, const FitLimits& limits) {
-  const int n = neighbours.size();
-  if (n < limits.least_neighbours) return std::nullopt;
-  const Scatter s = scatter_of(neighbours);
+  if (neighbours.size() < limits.least_neighbours) return std::nullopt;
+  const Positions points = largest_line(all_positions(neighbours), limits.largest_residual_m);
+  if (points.count < limits.least_neighbours) return std::nullopt;
+  const Scatter s = scatter_of(points);
   if (s.eigenvalues[2] < limits.least_spread_m * limits.least_spread_m) return std::nullopt;
   if (s.eigenvalues[1] * limits.ratio > s.eigenvalues[2]) return std::nullopt;
-  if (tilt_sigma(s.eigenvalues[1], s.eigenvalues[2], n, 2, limits.map_sigma_m) > limits.largest_tilt_sigma) {
-    return std::nullopt;
-  }
-  const Eigen::Vector3d direction = s.eigenvectors.col(2);
-  for (int i = 0; i < n; ++i) {
-    const Eigen::Vector3d d = neighbours[i].position - s.centroid;
-    if (d.cross(direction).norm() > limits.largest_residual_m) return std::nullopt;
-  }
+  const double tilt = tilt_sigma(s.eigenvalues[1], s.eigenvalues[2], points.count, 2, limits.map_sigma_m);
+  if (tilt > limits.largest_tilt_sigma) return std::nullopt;
   return MapLine{s.centroid, s.eigenvectors.col(0), s.eigenvectors.col(1)};
 }
 

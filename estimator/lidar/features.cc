@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
+#include <optional>
 
+#include "estimator/lidar/crease.h"
 #include "estimator/lidar/facing_side.h"
 #include "estimator/lidar/flat_index.h"
 #include "estimator/lidar/ring_table.h"
@@ -50,6 +51,7 @@ struct EdgeCandidate {
   int index = 0;
   int half_window = 0;
   float score = 0.0F;
+  Eigen::Vector3f step = Eigen::Vector3f::Zero();  // silhouettes: to where the next beam passed the edge
 };
 
 class Extraction {
@@ -69,10 +71,12 @@ class Extraction {
     std::vector<bool> taken(static_cast<std::size_t>(table_.size()), false);
     std::vector<EdgeCandidate> candidates;
     for (int r = 0; r < table_.ring_count(); ++r) {
+      Column above(table_, table_.ring_across(r, 1));
+      Column below(table_, table_.ring_across(r, -1));
       const int begin = table_.ring_begin(r);
       const int count = table_.ring_end(r) - begin;
       for (int s = 0; s < kSectors; ++s) {
-        edge_candidates(begin + count * s / kSectors, begin + count * (s + 1) / kSectors, r, candidates);
+        edge_candidates(begin + count * s / kSectors, begin + count * (s + 1) / kSectors, r, above, below, candidates);
         take_strongest(candidates, taken, edges);
       }
     }
@@ -90,7 +94,7 @@ class Extraction {
         if (!is_planar(i)) continue;
         const Eigen::Vector3f normal = normal_at(i, above, below);
         if (normal.isZero()) continue;
-        add_to_cell({table_.position(i), table_.intensity(i), normal}, index, cells, counts);
+        add_to_cell({table_.position(i), table_.intensity(i), normal, 0.0F}, index, cells, counts);
       }
     }
     for (FeaturePoint& cell : cells) cell.normal.normalize();
@@ -145,16 +149,19 @@ class Extraction {
     return result;
   }
 
-  void edge_candidates(int first, int end, int ring, std::vector<EdgeCandidate>& candidates) const {
+  void edge_candidates(int first, int end, int ring, Column& above, Column& below,
+                       std::vector<EdgeCandidate>& candidates) const {
     candidates.clear();
     for (int i = first; i < end; ++i) {
       const Shape& s = shape(i);
       if (s.half_window > 0) {
         if (s.deviation_m < std::max(kEdgeCurvature * table_.range(i), kEdgeSigmas * s.sigma_m)) continue;
-        candidates.push_back({i, s.half_window, s.deviation_m / table_.range(i)});
+        if (runs_along_beam(i, above, below)) continue;
+        candidates.push_back({i, s.half_window, s.deviation_m / table_.range(i), Eigen::Vector3f::Zero()});
       } else if (is_silhouette(i, ring)) {
         // Ranked by the turn that the unseen side of the step would show: half the least window, at a right angle.
-        candidates.push_back({i, kLeastHalfWindow, 0.5F * kLeastHalfWindow * table_.beam_spacing(ring)});
+        candidates.push_back({i, kLeastHalfWindow, 0.5F * kLeastHalfWindow * table_.beam_spacing(ring),
+                              silhouette_step(i, ring)});
       }
     }
   }
@@ -173,6 +180,25 @@ class Extraction {
     return along.cross(beam(i)).norm() > kSilhouetteGrazing;
   }
 
+  /// From a silhouette's return to where the next beam, which missed it, passed at the same range.
+  Eigen::Vector3f silhouette_step(int i, int ring) const {
+    const int beyond = i == table_.run_begin(i) ? i - 1 : i + 1;
+    const Eigen::Vector3f missed = origin_ + table_.range(i) * beam(beyond);
+    const Eigen::Vector3f step = missed - (origin_ + table_.range(i) * beam(i));
+    return step.norm() < 3.0F * table_.beam_spacing(ring) * table_.range(i) ? step : Eigen::Vector3f::Zero();
+  }
+
+  /// Where the same surface steps almost along the beam from ring to ring, a ring bends sharply on a smooth surface (the
+  /// floor of a round tunnel): grazing, as much as a wall seen edge-on.
+  bool runs_along_beam(int i, Column& above, Column& below) const {
+    const Eigen::Vector3f up = step_across(i, above.at(table_.offset_ns(i)));
+    const Eigen::Vector3f down = step_across(i, below.at(table_.offset_ns(i)));
+    const auto along = [&](const Eigen::Vector3f& step) {
+      return !step.isZero() && step.cross(beam(i)).norm() < kSilhouetteGrazing * step.norm();
+    };
+    return along(up) || along(down);
+  }
+
   /// Strongest first, none within the window of one already taken.
   void take_strongest(std::vector<EdgeCandidate>& candidates, std::vector<bool>& taken,
                       std::vector<FeaturePoint>& edges) const {
@@ -183,12 +209,25 @@ class Extraction {
     for (const EdgeCandidate& c : candidates) {
       if (left == 0) break;
       if (taken[static_cast<std::size_t>(c.index)]) continue;
-      edges.push_back({table_.position(c.index), table_.intensity(c.index), Eigen::Vector3f::Zero()});
+      const std::optional<Eigen::Vector3f> position = edge_position(c);
+      if (!position) continue;
+      // The edge lies anywhere between two beams: uniform, so a spacing over sqrt(12).
+      edges.push_back({*position, table_.intensity(c.index), Eigen::Vector3f::Zero(), 0.289F * c.step.norm()});
       const int first = std::max(table_.run_begin(c.index), c.index - c.half_window);
       const int last = std::min(table_.run_end(c.index) - 1, c.index + c.half_window);
       for (int i = first; i <= last; ++i) taken[static_cast<std::size_t>(i)] = true;
       --left;
     }
+  }
+
+  /// A crease narrower than the window (a door frame's) shows in half or a quarter of it.
+  std::optional<Eigen::Vector3f> edge_position(const EdgeCandidate& c) const {
+    if (!c.step.isZero()) return table_.position(c.index) + 0.5F * c.step;
+    std::optional<Eigen::Vector3f> position;
+    for (int n = c.half_window; n >= kLeastHalfWindow && !position; n /= 2) {
+      position = fit_crease(table_, c.index, n, range_sigma_);
+    }
+    return position;
   }
 
   bool is_planar(int i) const {

@@ -11,6 +11,7 @@ struct FeaturePoint {
   Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< [m], in B at the scan's reference time
   float intensity = 0.0F;
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< planes: unit, in B, towards the sensor; edges: zero
+  float spread_m = 0.0F;  ///< edges: standard deviation across the edge that the spacing of the beams adds
 };
 
 /// What matching uses of one scan (thesis 5.12 and the selection rules of ch. 4).

@@ -8,7 +8,7 @@ namespace plumbline {
 void NearestSamples::offer(double squared_distance, const MapSample& sample) {
   if (squared_distance >= worst()) return;
   if (!normal_.isZero() && normal_.dot(sample.normal) < 0.5F) return;
-  int i = size_ < kCapacity ? size_++ : kCapacity - 1;
+  int i = full() ? size_ - 1 : size_++;
   for (; i > 0 && distances_[static_cast<std::size_t>(i) - 1] > squared_distance; --i) {
     distances_[static_cast<std::size_t>(i)] = distances_[static_cast<std::size_t>(i) - 1];
     samples_[static_cast<std::size_t>(i)] = samples_[static_cast<std::size_t>(i) - 1];
@@ -44,7 +44,7 @@ struct ResultAccess {
     return true;
   }
   double worstDist() const { return nearest.worst(); }
-  bool full() const { return nearest.size() == NearestSamples::kCapacity; }
+  bool full() const { return nearest.full(); }
 };
 
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, SampleAccess>, SampleAccess, 3,

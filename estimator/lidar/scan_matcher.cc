@@ -20,13 +20,15 @@ constexpr double kLeastReach_m = 1.0;
 constexpr double kLargestReach_m = 1.5;
 constexpr double kReachPerRange = 0.07;
 
+// Ten cells around a point of a wall span 0.8 m and average the noise of its normal; edges need a few more, since the
+// neighbours of one line mix with those of the next.
+constexpr int kPlaneNeighbours = 10;
+constexpr int kLineNeighbours = 16;
+
 // Correspondences are found anew only when the pose has moved this far since: searching is nearly all of a match's cost,
 // and planes a decimetre apart on one surface are the same plane.
 constexpr double kSearchAgain_m = 0.02;
 constexpr double kSearchAgain_rad = 0.003;
-
-// An edge is known to about half the spacing of the beams that straddle it [rad].
-constexpr double kEdgeSpread = 0.001;
 
 struct PlaneMatch {
   Eigen::Vector3d point_in_body;
@@ -79,6 +81,7 @@ struct ScanMatcher::Impl {
     options.degeneracy_threshold = settings.degeneracy_threshold;
     options.remapping = remap;
     options.min_features = settings.least_features;
+    edge_limits.largest_residual_m = 0.03;
     plane_limits.map_sigma_m = edge_limits.map_sigma_m = 0.5 * calibration.lidar_range_sigma_m;
     edge_limits.largest_tilt_sigma = settings.largest_edge_tilt;
     plane_limits.largest_tilt_sigma = settings.largest_plane_tilt;
@@ -134,17 +137,17 @@ class MapConstraints {
   void match_plane(const FeaturePoint& feature, const Pose& world_from_body) {
     const Eigen::Vector3d point = feature.position.cast<double>();
     const Eigen::Vector3d normal = world_from_body.rotation * feature.normal.cast<double>();
-    NearestSamples nearest(reach_of(feature), normal.cast<float>());
+    NearestSamples nearest(kPlaneNeighbours, reach_of(feature), normal.cast<float>());
     planes_.nearest(world_from_body * point, reach_of(feature), nearest);
     if (const auto plane = fit_plane(nearest, plane_limits_)) plane_matches_.push_back({point, *plane});
   }
 
   void match_line(const FeaturePoint& feature, const Pose& world_from_body) {
     const Eigen::Vector3d point = feature.position.cast<double>();
-    NearestSamples nearest(reach_of(feature), Eigen::Vector3f::Zero());
+    NearestSamples nearest(kLineNeighbours, reach_of(feature), Eigen::Vector3f::Zero());
     edges_.nearest(world_from_body * point, reach_of(feature), nearest);
     const auto line = fit_line(nearest, edge_limits_);
-    if (line) line_matches_.push_back({point, *line, std::hypot(sigma_m_, kEdgeSpread * point.norm())});
+    if (line) line_matches_.push_back({point, *line, std::hypot(sigma_m_, static_cast<double>(feature.spread_m))});
   }
 
   const VoxelMap& edges_;

@@ -16,7 +16,7 @@ Spectrum analyse(const Matrix6d& information, double threshold) {
   if (eigen.info() != Eigen::Success) return spectrum;
   spectrum.eigenvalues = eigen.eigenvalues().cwiseMax(0.0);
   spectrum.eigenvectors = eigen.eigenvectors();
-  for (int i = 0; i < 6; ++i) spectrum.well_conditioned += spectrum.eigenvalues[i] > threshold ? 1 : 0;
+  for (int i = 0; i < 6; ++i) spectrum.well_conditioned += spectrum.eigenvalues[i] >= threshold ? 1 : 0;
   return spectrum;
 }
 

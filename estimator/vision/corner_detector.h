@@ -29,8 +29,8 @@ struct Corner {
   double noise_sigma_px = 0.0;  ///< how far image noise alone moves a track of this corner
 };
 
-/// Standard deviation of a pixel [DN], from the image itself (median absolute response of a mask that ignores edges) but
-/// at least what the data sheet promises for its brightness. Gain is unknown to the estimator, hence the image.
+/// Standard deviation of a pixel [DN], from the image itself (median absolute response of a mask that ignores edges)
+/// but at least what the data sheet promises for its brightness. Gain is unknown to the estimator, hence the image.
 double image_noise_dn(const GreyView& image, const CameraNoise& data_sheet);
 
 /// The strongest corners (Harris's structure tensor, judged by its smaller eigenvalue) of every sub-region that holds

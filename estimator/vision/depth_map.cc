@@ -12,14 +12,14 @@ namespace plumbline {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
-constexpr int kNeighbours = 16;           // enough to reach a second ring past the points of the first
-constexpr double kSpreadShare = 0.1;      // thesis 5.2: no plane across objects; limit as method section 8
-constexpr double kSpreadFloor = 0.3;      // [m]
-constexpr double kLeastCosine = 0.15;     // between plane normal and ray: 81 degrees of incidence
-constexpr double kLeastDepth = 0.1;       // [m]
+constexpr int kNeighbours = 16;                // enough to reach a second ring past the points of the first
+constexpr double kSpreadShare = 0.1;           // thesis 5.2: no plane across objects; limit as method section 8
+constexpr double kSpreadFloor = 0.3;           // [m]
+constexpr double kLeastCosine = 0.15;          // between plane normal and ray: 81 degrees of incidence
+constexpr double kLeastDepth = 0.1;            // [m]
 constexpr double kMaxOutside = 0.5 * kDegree;  // how far outside its triangle a ray may pass on a lone surface
 constexpr double kRegistrationAngle = 2e-3;    // [rad], of points registered with the estimate's own motion
-constexpr double kCurvatureShare = 0.05;  // of the triangle's depth spread, for surfaces that are not planes
+constexpr double kCurvatureShare = 0.05;       // of the triangle's depth spread, for surfaces that are not planes
 constexpr double kInsertionMargin = 30.0 * kDegree;
 constexpr std::size_t kMaxScans = 64;
 
@@ -88,8 +88,8 @@ std::optional<Triangle> choose_triangle(const std::vector<Neighbour>& sorted) {
 
 float spread_of(const Triangle& triangle) {
   const auto& [a, b, c] = triangle.corners;
-  return std::max({(a.position - b.position).norm(), (b.position - c.position).norm(),
-                   (c.position - a.position).norm()});
+  return std::max(
+      {(a.position - b.position).norm(), (b.position - c.position).norm(), (c.position - a.position).norm()});
 }
 
 float depth_spread_of(const Triangle& triangle) {
@@ -113,7 +113,7 @@ struct DepthMap::Impl {
   std::deque<Scan> scans;  // oldest first
   AngularPoints view;
   std::unique_ptr<AngularTree> tree;
-  std::vector<bool> cell_taken;  // one flag per angular cell of the view
+  std::vector<std::uint8_t> cell_taken;  // one flag per angular cell of the view
   mutable std::vector<Neighbour> neighbours;
   mutable std::vector<Neighbour> nearer_surface;
 
@@ -173,7 +173,7 @@ void DepthMap::Impl::gather_view(const Pose& world_from_camera) {
   const double top = -camera.cy / camera.fy - margin;
   const int columns = static_cast<int>((camera.width / camera.fx + 2.0 * margin) / cell) + 1;
   const int rows = static_cast<int>((camera.height / camera.fy + 2.0 * margin) / cell) + 1;
-  cell_taken.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), false);
+  cell_taken.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0);
 
   const Pose camera_from_world = world_from_camera.inverse();
   const Eigen::Matrix3f rotation = camera_from_world.rotation.toRotationMatrix().cast<float>();
@@ -185,13 +185,14 @@ void DepthMap::Impl::gather_view(const Pose& world_from_camera) {
     for (const Eigen::Vector3f& point : scan->points_in_world) {
       const Eigen::Vector3f p = rotation * (point - origin);
       if (!(p.z() > static_cast<float>(kLeastDepth))) continue;
-      const float column = (p.x() / p.z() - left_f) * cells_per_unit;
-      const float row = (p.y() / p.z() - top_f) * cells_per_unit;
+      const float inverse_z = 1.0F / p.z();
+      const float column = (p.x() * inverse_z - left_f) * cells_per_unit;
+      const float row = (p.y() * inverse_z - top_f) * cells_per_unit;
       if (column < 0 || row < 0 || column >= static_cast<float>(columns) || row >= static_cast<float>(rows)) continue;
-      const auto index = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-                         static_cast<std::size_t>(column);
-      if (cell_taken[index]) continue;
-      cell_taken[index] = true;
+      const auto index =
+          static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
+      if (cell_taken[index] != 0) continue;
+      cell_taken[index] = 1;
       view.angles.push_back(angles_of(p));
       view.positions.push_back(p);
     }

@@ -14,9 +14,9 @@ namespace plumbline {
 
 struct DepthMapConfig {
   double max_age_s = 3.0;
-  double range_sigma_m = 0.015;       ///< of one lidar point
-  double angular_spacing_deg = 0.4;   ///< of the kept points; finer, and all neighbours of a ray lie on one lidar ring
-  double max_neighbour_angle_deg = 2.0;  ///< between ray and neighbour: the ring spacing of a 16-beam lidar
+  double range_sigma_m = 0.015;      ///< of one lidar point
+  double angular_spacing_deg = 0.4;  ///< of the kept points; finer, and all neighbours of a ray lie on one lidar ring
+  double max_neighbour_angle_deg = 2.4;  ///< between ray and neighbour: the 2 degrees between a 16-beam lidar's rings
 };
 
 /// Lidar points of the last seconds as seen from a key-frame, asked for the depth along a ray (thesis 3.3 and 5.2).

@@ -9,11 +9,11 @@
 namespace plumbline {
 namespace {
 
-constexpr int kWindow = 15;        // [px]
-constexpr int kTopLevel = 2;       // three levels: a prediction may err by some 25 px
-constexpr int kPatchRadius = 5;    // [px] of the patch that is compared after tracking
-constexpr int kGainRadius = 4;     // [px] of the boxes whose brightness is compared before tracking
-constexpr float kBorder = 8.0F;    // [px]: half the window
+constexpr int kWindow = 15;      // [px]
+constexpr int kTopLevel = 2;     // three levels: a prediction may err by some 25 px
+constexpr int kPatchRadius = 5;  // [px] of the patch that is compared after tracking
+constexpr int kGainRadius = 4;   // [px] of the boxes whose brightness is compared before tracking
+constexpr float kBorder = 8.0F;  // [px]: half the window
 constexpr double kMaxGain = 4.0;
 /// Least normalised correlation of a patch with its anchor. Noise that buried a patch scores near 0, a corner at the
 /// detection threshold 0.8, a patch stretched by a tenth still 0.9.

@@ -93,11 +93,6 @@ PixelRows reprojection_rows(const CameraMotion& motion, const CameraIntrinsics& 
   return rows;
 }
 
-PixelRows reprojection_rows(const CameraMotion& motion, const CameraIntrinsics& camera,
-                            const FeatureSighting& feature) {
-  return reprojection_rows(motion, camera, feature, reprojection_whitening(motion, camera, feature));
-}
-
 PixelRow epipolar_row(const CameraMotion& motion, const CameraIntrinsics& camera, const FeatureSighting& feature) {
   const Eigen::Vector3d& t = motion.camera_from_keyframe_translation;
   const Eigen::Vector3d y = motion.camera_from_keyframe_rotation * feature.keyframe_ray;

@@ -6,8 +6,8 @@
 #include "estimator/messages.h"
 #include "estimator/vision/inverse_depth.h"
 
-/// The residual rows of one feature seen in the key-frame l and in the image now c, and their Jacobians with respect to a
-/// right perturbation of keyframe_from_body: thesis 5.6-5.8, whitened to units of pixel noise.
+/// The residual rows of one feature seen in the key-frame l and in the image now c, and their Jacobians with respect to
+/// a right perturbation of keyframe_from_body: thesis 5.6-5.8, whitened to units of pixel noise.
 namespace plumbline {
 
 /// The camera's motion since the key-frame at one candidate pose: what all rows of a linearisation share.
@@ -33,16 +33,16 @@ struct PixelRows {
   Eigen::Matrix<double, 2, 6> jacobian = Eigen::Matrix<double, 2, 6>::Zero();
 };
 
-/// Rows 5.6 and 5.7 divided by the depth now, that is, the reprojection error, whitened by the pixel noise and by
-/// the depth's uncertainty as seen through the motion. The depth noise acts along the epipolar line only, so the two
-/// rows are turned by the inverse square root of their joint covariance; the Jacobian holds that covariance constant.
-PixelRows reprojection_rows(const CameraMotion& motion, const CameraIntrinsics& camera, const FeatureSighting& feature);
-
-/// As above with a given 2x2 whitening, the function whose derivative the Jacobian is.
-PixelRows reprojection_rows(const CameraMotion& motion, const CameraIntrinsics& camera, const FeatureSighting& feature,
-                            const Eigen::Matrix2d& whitening);
+/// The inverse square root of a feature's joint pixel covariance at one motion: tracking noise on both axes, and the
+/// depth's uncertainty as the motion shows it, which acts along the epipolar line only. A feature of hardly known
+/// depth thus keeps its full weight across that line.
 Eigen::Matrix2d reprojection_whitening(const CameraMotion& motion, const CameraIntrinsics& camera,
                                        const FeatureSighting& feature);
+
+/// Rows 5.6 and 5.7 divided by the depth now, that is, the reprojection error, whitened. The whitening is a constant of
+/// the problem: were it a function of the pose, the solver could lower the cost by making the noise look larger.
+PixelRows reprojection_rows(const CameraMotion& motion, const CameraIntrinsics& camera, const FeatureSighting& feature,
+                            const Eigen::Matrix2d& whitening);
 
 struct PixelRow {
   double residual = 0.0;

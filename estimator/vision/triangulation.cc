@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kLeastAxisAngle = 2.0 * M_PI / 180.0;  // method section 8: the ray more than 2 degrees off the motion
 constexpr double kLeastBaseline = 0.01;                 // [m]: below, the pose's own error is all there is
-constexpr double kMotionRelativeError = 0.01;           // of the translation's length, which scales all depths alike
+constexpr double kMotionRelativeError = 0.02;           // of the translation's length, which scales all depths alike
 constexpr double kEpipolarGate = 4.0;                   // [sigma]
 constexpr double kContradiction = 4.0;                  // [sigma]
 /// A baseline of 2 % of the depth (method section 8) moves a feature by 9.5 px at f = 474 px, which a track good to

@@ -7,9 +7,9 @@
 #include "estimator/vision/motion_constraints.h"
 
 /// Depth from the camera's own motion for features that the lidar does not see (thesis 3.3 and 5.2): a Gaussian filter
-/// on inverse depth that takes one measurement a key-frame and is carried along from key-frame to key-frame. One, because
-/// the frames between share the key-frame's patch: their errors are nearly the same, and counting them all would make
-/// the depth far too sure of itself.
+/// on inverse depth that takes one measurement a key-frame and is carried along from key-frame to key-frame. One,
+/// because the frames between share the key-frame's patch: their errors are nearly the same, and counting them all
+/// would make the depth far too sure of itself.
 namespace plumbline {
 
 /// The inverse depth in the key-frame that one later sighting implies, with the standard deviation that the pixel noise

@@ -27,12 +27,13 @@ struct Feature {
   FeatureSighting sighting;
   Eigen::Vector2f keyframe_pixel = Eigen::Vector2f::Zero();
   Eigen::Vector2f anchor_pixel = Eigen::Vector2f::Zero();
-  double anchor_scale = 1.0;   ///< z^c / z^l when the anchor was taken
-  InverseDepth triangulated;   ///< in the key-frame, from its whole track
+  double anchor_scale = 1.0;  ///< z^c / z^l when the anchor was taken
+  InverseDepth triangulated;  ///< in the key-frame, from its whole track
   TrackedFeature::Depth depth_source = TrackedFeature::Depth::kNone;
-  bool epipolar = false;       ///< which row kind this image gives
+  bool epipolar = false;                                    ///< which row kind this image gives
+  Eigen::Matrix2d whitening = Eigen::Matrix2d::Identity();  ///< of its reprojection rows, else unused
   bool inlier = true;
-  int outlier_frames = 0;      ///< in a row
+  int outlier_frames = 0;  ///< in a row
 };
 
 SolveResult unsolved(const Pose& guess) {
@@ -98,7 +99,7 @@ struct VisualOdometry::Impl {
   std::optional<Pose> world_from_keyframe;  ///< the body's pose; empty before the first key-frame
   std::int64_t keyframe_ns = 0;
   std::size_t keyframe_features = 0;
-  Pose keyframe_from_newest;                ///< the body's motion, as last solved
+  Pose keyframe_from_newest;  ///< the body's motion, as last solved
   bool solved = false;
   double anchor_roll = 0.0;
 };
@@ -207,14 +208,16 @@ void VisualOdometry::Impl::track(const Pose& predicted_keyframe_from_body) {
 }
 
 /// A depthless feature gives an epipolar row once its parallax exceeds what its noise and the prior's rotation could
-/// feign; before that it is a direction, as of a point far away, and says nothing about translation.
+/// feign; before that it is a direction, as of a point far away, and says nothing about translation. The noise of the
+/// other rows depends on the motion as well. Both are decided once, at the prior, for all iterations: deciding anew at
+/// every iterate tripled the iterations.
 void VisualOdometry::Impl::choose_rows(const PosePrior& prior) {
   const CameraMotion motion = camera_motion(prior.mean, body_from_camera);
   const double rotation_px = camera.fx * std::sqrt(prior.covariance.topLeftCorner<3, 3>().trace());
   for (Feature& f : features) {
-    if (f.depth_source != TrackedFeature::Depth::kNone) continue;
     const double least = kLeastParallaxInSigma * std::hypot(f.sighting.pixel_sigma, rotation_px);
-    f.epipolar = parallax_px(motion, camera, f.sighting) > least;
+    f.epipolar = f.depth_source == TrackedFeature::Depth::kNone && parallax_px(motion, camera, f.sighting) > least;
+    if (!f.epipolar) f.whitening = reprojection_whitening(motion, camera, f.sighting);
   }
 }
 
@@ -231,7 +234,7 @@ SolveResult VisualOdometry::Impl::solve_motion(const PosePrior& prior) {
         const PixelRow row = epipolar_row(motion, camera, f.sighting);
         rows.add(row.residual, row.jacobian);
       } else {
-        const PixelRows pair = reprojection_rows(motion, camera, f.sighting);
+        const PixelRows pair = reprojection_rows(motion, camera, f.sighting, f.whitening);
         rows.add(pair.residual[0], pair.jacobian.row(0), pair.residual[1], pair.jacobian.row(1));
       }
     }

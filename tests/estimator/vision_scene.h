@@ -39,8 +39,8 @@ inline TexturedPlane textured_plane(const Eigen::Vector3d& centre, const Eigen::
                                     const Eigen::Vector3d& down, double width_m, double height_m,
                                     double metres_per_texel, std::uint64_t seed) {
   TexturedPlane plane{centre - 0.5 * width_m * along - 0.5 * height_m * down, along, down, {}, metres_per_texel};
-  plane.texture = random_texture(static_cast<int>(width_m / metres_per_texel),
-                                 static_cast<int>(height_m / metres_per_texel), seed);
+  plane.texture =
+      random_texture(static_cast<int>(width_m / metres_per_texel), static_cast<int>(height_m / metres_per_texel), seed);
   return plane;
 }
 

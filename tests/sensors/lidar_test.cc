@@ -23,8 +23,9 @@ const Eigen::Vector3d kRoomHalfSize(4.0, 3.0, 2.0);
 
 World world_of(const std::string& geoms, float reflectivity = 0.5F) {
   SceneDescription scene;
-  scene.mjcf = "<mujoco><asset><material name=\"wall\"/></asset><default><geom material=\"wall\"/></default><worldbody>" +
-               geoms + "</worldbody></mujoco>";
+  scene.mjcf =
+      "<mujoco><asset><material name=\"wall\"/></asset><default><geom material=\"wall\"/></default><worldbody>" +
+      geoms + "</worldbody></mujoco>";
   Material wall;
   wall.name = "wall";
   wall.lidar_reflectivity = reflectivity;
@@ -80,11 +81,10 @@ Beam vlp16_beam(const LidarPoint& point) {
 }
 
 bool same_points(const LidarScan& a, const LidarScan& b) {
-  return std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(),
-                    [](const LidarPoint& p, const LidarPoint& q) {
-                      return p.position == q.position && p.offset_ns == q.offset_ns && p.ring == q.ring &&
-                             p.intensity == q.intensity;
-                    });
+  return std::equal(
+      a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), [](const LidarPoint& p, const LidarPoint& q) {
+        return p.position == q.position && p.offset_ns == q.offset_ns && p.ring == q.ring && p.intensity == q.intensity;
+      });
 }
 
 TEST(Lidar, EveryFiringOfTheVlp16ReturnsAtItsOwnTimeInFiringOrder) {
@@ -260,8 +260,8 @@ TEST(Lidar, ANearSurfaceHidesWhatIsBehindIt) {
 
 // A wall square to x, level beams only.
 std::size_t returns_from_wall(double distance_m, float reflectivity) {
-  const World world = world_of("<geom type=\"box\" size=\"0.1 1 5\" pos=\"" + std::to_string(distance_m + 0.1) + " 0 0\"/>",
-                               reflectivity);
+  const World world = world_of(
+      "<geom type=\"box\" size=\"0.1 1 5\" pos=\"" + std::to_string(distance_m + 0.1) + " 0 0\"/>", reflectivity);
   return scan_at_rest(Lidar(vlp16(), Pose{}, 1), world).points.size();
 }
 

@@ -89,8 +89,7 @@ INSTANTIATE_TEST_SUITE_P(AllTypes, SolidMesh,
                          ::testing::Values(Solid{"sphere", "1.5", 4.0 / 3.0 * kPi * 1.5 * 1.5 * 1.5},
                                            Solid{"ellipsoid", "0.5 1 2", 4.0 / 3.0 * kPi * 0.5 * 1.0 * 2.0},
                                            Solid{"capsule", "0.5 1", kPi * 0.25 * 2.0 + 4.0 / 3.0 * kPi * 0.125},
-                                           Solid{"cylinder", "0.7 1.2", kPi * 0.49 * 2.4},
-                                           Solid{"box", "1 2 3", 48.0}),
+                                           Solid{"cylinder", "0.7 1.2", kPi * 0.49 * 2.4}, Solid{"box", "1 2 3", 48.0}),
                          [](const auto& solid) { return std::string(solid.param.type); });
 
 TEST(GeomMesh, PlanesFaceUpAndInfiniteOnesReachTheExtent) {
@@ -107,8 +106,8 @@ TEST(GeomMesh, PlanesFaceUpAndInfiniteOnesReachTheExtent) {
 }
 
 TEST(GeomMesh, AFlatHeightFieldIsItsBaseBox) {
-  const TriangleMesh mesh = mesh_in(world_with(R"(<geom type="hfield" hfield="h"/>)",
-                                               R"(<hfield name="h" nrow="4" ncol="6" size="3 2 1 0.5"/>)"));
+  const TriangleMesh mesh = mesh_in(
+      world_with(R"(<geom type="hfield" hfield="h"/>)", R"(<hfield name="h" nrow="4" ncol="6" size="3 2 1 0.5"/>)"));
   EXPECT_TRUE(is_closed(mesh));
   EXPECT_NEAR(enclosed_volume(mesh), 6.0 * 4.0 * 0.5, 1e-5);
 }

@@ -14,9 +14,9 @@ namespace plumbline {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
-using ::testing::AllOf;
 
 SceneDescription box_on_floor() {
   SceneDescription scene;
@@ -65,8 +65,7 @@ class UserFolder : public ::testing::Test {
   fs::path original_;
 };
 
-constexpr char kTetrahedron[] =
-    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+constexpr char kTetrahedron[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 
 constexpr char kMeshModel[] = R"(<mujoco>
   <compiler meshdir="meshes"/>
@@ -92,7 +91,8 @@ TEST(World, GeomsLookAsTheirMaterialsSayAndBareOnesAsTheirColour) {
   EXPECT_EQ(world.materials()[static_cast<std::size_t>(world.material_of(geom_named(world, "box")))].pattern,
             Material::Pattern::kBrick);
   EXPECT_EQ(world.materials()[static_cast<std::size_t>(world.material_of(geom_named(world, "floor")))].name, "asphalt");
-  EXPECT_FLOAT_EQ(world.materials()[static_cast<std::size_t>(world.material_of(geom_named(world, "bare")))].albedo, 1.0F);
+  EXPECT_FLOAT_EQ(world.materials()[static_cast<std::size_t>(world.material_of(geom_named(world, "bare")))].albedo,
+                  1.0F);
 }
 
 TEST(World, PosesAreThoseOfTheInitialState) {
@@ -190,8 +190,9 @@ TEST_F(UserFolder, ErrorsNameTheFileAndTheTrouble) {
   expect_error(write("robot.xml", "<robot name=\"x\"><link name=\"l\"/></robot>"), "link");
   expect_error(write("blob.xml", "<mujoco><worldbody><geom type=\"blob\"/></worldbody></mujoco>"), "blob");
   expect_error(write("meshless.xml", kMeshModel), "rock.obj");
-  expect_error(write("textureless.xml", "<mujoco><asset><texture name=\"t\" type=\"2d\" file=\"wood.png\"/></asset></mujoco>"),
-               "wood.png");
+  expect_error(
+      write("textureless.xml", "<mujoco><asset><texture name=\"t\" type=\"2d\" file=\"wood.png\"/></asset></mujoco>"),
+      "wood.png");
 }
 
 TEST_F(UserFolder, OversizedFilesAreRefusedUnread) {

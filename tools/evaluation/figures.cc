@@ -26,7 +26,7 @@ std::optional<double> lost_since(const std::vector<PosePair>& aligned_pairs) {
   return seconds_between(aligned_pairs.front().stamp_ns, aligned_pairs[first].stamp_ns);
 }
 
-std::vector<PosePair> apply(const Alignment& alignment, std::vector<PosePair> pairs) {
+std::vector<PosePair> moved_by(const Alignment& alignment, std::vector<PosePair> pairs) {
   for (PosePair& pair : pairs) pair.estimate = alignment.apply(pair.estimate);
   return pairs;
 }
@@ -69,7 +69,7 @@ TrajectoryFigures trajectory_figures(const StampedPoses& truth, const StampedPos
   const std::vector<PosePair> pairs = pair_poses_to_end(truth, estimate);
   if (pairs.empty()) return figures;
   figures.drift_alignment = alignment ? align(pairs, *alignment) : Alignment{align_first_second(pairs), 1.0};
-  figures.aligned = apply(figures.drift_alignment, pairs);
+  figures.aligned = moved_by(figures.drift_alignment, pairs);
   figures.final_error_m = position_error(figures.aligned.back());
   const auto worst = std::max_element(figures.aligned.begin(), figures.aligned.end(), [](const auto& a, const auto& b) {
     return position_error(a) < position_error(b);
@@ -81,7 +81,7 @@ TrajectoryFigures trajectory_figures(const StampedPoses& truth, const StampedPos
   // Relative figures are blind to alignment but for a scale, which the aligned estimate already has.
   figures.kitti = kitti_error(figures.aligned, figures.distance_m);
   figures.rpe = relative_error(figures.aligned);
-  figures.ape = absolute_error(apply(align(pairs, alignment.value_or(AlignmentKind::kSe3)), pairs));
+  figures.ape = absolute_error(moved_by(align(pairs, alignment.value_or(AlignmentKind::kSe3)), pairs));
   return figures;
 }
 
@@ -133,7 +133,7 @@ std::vector<Figure> figure_list(const RunFigures& figures) {
   list.push_back({"wall_s", finite(figures.wall_s)});
   for (const Module module : kModules) {
     const auto found = figures.modules.find(module);
-    append_module(list, module_key(module), found == figures.modules.end() ? ModuleFigures{} : found->second);
+    append_module(list, std::string(to_string(module)), found == figures.modules.end() ? ModuleFigures{} : found->second);
   }
   for (const Module module : kModules) {
     const auto found = figures.messages.find(module);
@@ -142,15 +142,8 @@ std::vector<Figure> figure_list(const RunFigures& figures) {
   return list;
 }
 
-std::string message_key(Module module) { return module == Module::kVision ? "camera" : module_key(module); }
-
-std::string module_key(Module module) {
-  switch (module) {
-    case Module::kImu: return "imu";
-    case Module::kVision: return "vision";
-    case Module::kLidar: return "lidar";
-  }
-  return "unknown";
+std::string message_key(Module module) {
+  return module == Module::kVision ? "camera" : std::string(to_string(module));
 }
 
 }  // namespace plumbline

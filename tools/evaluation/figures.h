@@ -66,9 +66,6 @@ std::vector<Figure> figure_list(const RunFigures& figures);
 
 /// How result.json calls a module's messages: imu, camera, lidar.
 std::string message_key(Module module);
-/// How result.json calls a module: imu, vision, lidar.
-std::string module_key(Module module);
-
 constexpr Module kModules[] = {Module::kImu, Module::kVision, Module::kLidar};
 
 }  // namespace plumbline

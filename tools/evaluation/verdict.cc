@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "tools/exit_code.h"
 #include "tools/formats/number_text.h"
 
 namespace plumbline {
@@ -50,8 +51,8 @@ std::string to_string(Status status) {
 }
 
 int Verdict::exit_code() const {
-  if (status == Status::kError && expected_status != to_string(Status::kError)) return 3;
-  return holds ? 0 : 1;
+  if (status == Status::kError && expected_status != to_string(Status::kError)) return kExitFault;
+  return holds ? kExitDone : kExitCheckFailed;
 }
 
 void require_known_expectations(const Scenario& scenario) {

@@ -51,7 +51,7 @@ ordered_json provenance_json(const Provenance& p) {
 
 void set_nested(ordered_json& result, const RunFigures& figures) {
   for (const Module module : kModules) {
-    result["modules"][module_key(module)]["dof_histogram"] = figures.modules.at(module).dof_histogram;
+    result["modules"][std::string(to_string(module))]["dof_histogram"] = figures.modules.at(module).dof_histogram;
     result["messages"][message_key(module)]["dropped"] = figures.messages.at(module).dropped;
   }
 }

@@ -22,6 +22,12 @@ fs::path resolved(const fs::path& path) {
   return normal.has_filename() ? normal : normal.parent_path();
 }
 
+fs::path hidden_sibling(const fs::path& target) {
+  std::string name(1, '.');
+  name.append(target.filename().string()).append(".partial-").append(std::to_string(getpid()));
+  return target.parent_path() / name;
+}
+
 void require_replaceable(const fs::path& target) {
   std::error_code error;
   if (!fs::exists(target, error)) return;
@@ -37,9 +43,7 @@ void require_replaceable(const fs::path& target) {
 
 }  // namespace
 
-RunDirectory::RunDirectory(const fs::path& target)
-    : target_(resolved(target)),
-      staging_(target_.parent_path() / ("." + target_.filename().string() + ".partial-" + std::to_string(getpid()))) {
+RunDirectory::RunDirectory(const fs::path& target) : target_(resolved(target)), staging_(hidden_sibling(target_)) {
   require_replaceable(target_);
 }
 

@@ -19,7 +19,7 @@ p.note{margin:0 0 12px;color:var(--soft);max-width:80ch}
 .badge{font-weight:600;font-size:14px;padding:2px 12px;border-radius:99px;color:#fff;background:var(--soft)}
 .badge.ok{background:#1f7f63}.badge.failed{background:#a66c00}.badge.lost,.badge.error{background:#b81d3a}
 .sub{color:var(--soft)}
-.tiles{display:grid;grid-template-columns:repeat(auto-fit,minmax(148px,1fr));gap:10px;margin:20px 0 0}
+.tiles{display:grid;grid-template-columns:repeat(5,minmax(0,1fr));gap:10px;margin:20px 0 0}
 .tile{background:var(--card);border:1px solid var(--line);border-radius:10px;padding:10px 14px}
 .tile b{display:block;font-size:22px;font-weight:600;font-variant-numeric:tabular-nums;white-space:nowrap}
 .tile b small{font-size:14px;font-weight:400;color:var(--soft)}
@@ -35,7 +35,7 @@ figure{margin:0}
 .pair>div>.chart:first-child{border-radius:10px 10px 0 0}
 .pair>div>.chart.strips{border-bottom:1px solid var(--line);border-radius:0 0 10px 10px;padding-bottom:12px}
 .map+.map{margin-top:14px}
-figcaption{font-weight:600;font-size:14px}
+figcaption{font-weight:600;font-size:14px}figcaption small{font-weight:400;color:var(--soft);font-size:13px}
 .camera figcaption{font-weight:400;color:var(--soft);font-size:13px}
 svg{display:block;width:100%;height:auto}
 .map svg{max-height:620px;margin-top:6px}
@@ -59,15 +59,15 @@ circle.start{fill:var(--card);stroke:var(--ink);stroke-width:2}circle.end{fill:v
 .scroll{overflow-x:auto}
 table{border-collapse:collapse;width:100%;font-size:14px}
 th,td{text-align:left;padding:4px 10px 4px 0;border-bottom:1px solid var(--line);vertical-align:top;overflow-wrap:anywhere}
-th{color:var(--soft);font-weight:500}td.number,th.number{text-align:right;font-variant-numeric:tabular-nums}
+th{color:var(--soft);font-weight:500;white-space:nowrap}td.number,th.number{text-align:right;font-variant-numeric:tabular-nums}
 .columns{columns:2;column-gap:36px}.columns tr{break-inside:avoid}
 pre{overflow-x:auto;font-size:13px;margin:8px 0 0}
-summary{cursor:pointer}
+details{margin-top:10px}summary{cursor:pointer}
 @media(max-width:760px){main{padding:18px 12px 40px}h1{font-size:23px}h2{margin-top:32px}
 .pair,.triple{grid-template-columns:minmax(0,1fr)}.columns{columns:1}
 .tiles{grid-template-columns:repeat(2,minmax(0,1fr))}.tile{padding:8px 12px}.tile b{font-size:19px}
 .card,.chart,.map{padding:10px}
-.chart svg text{font-size:19px}.map svg text{font-size:32px}}
+.chart svg text{font-size:19px}.strips svg text{font-size:16.5px}.map svg text{font-size:32px}}
 )css";
 
 }  // namespace plumbline

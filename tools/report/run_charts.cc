@@ -17,7 +17,7 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 // A status lasts until the module's next solve, but no longer than this: silence is shown as such.
 constexpr double kLongestStatus = 0.5;  // [s]
-constexpr double kSmallHeight = 130.0;
+constexpr double kSmallHeight = 118.0;
 
 std::int64_t start_of(const RunRecord& record) {
   return record.ground_truth.empty() ? 0 : record.ground_truth.front().stamp_ns;
@@ -76,16 +76,20 @@ std::string correction_chart(const std::vector<ModuleHealth>& rows, const RunRec
 }
 
 /// Three components and, when asked for, their norm.
-LineChart component_chart(const std::vector<double>& times, const std::vector<Eigen::Vector3d>& values,
-                          const std::array<std::string, 3>& names, bool with_norm) {
+LineChart component_chart(std::string caption, std::string unit, const std::vector<double>& times,
+                          const std::vector<Eigen::Vector3d>& values, const std::array<const char*, 3>& names,
+                          bool with_norm) {
   LineChart chart;
+  chart.caption = std::move(caption);
+  chart.unit = std::move(unit);
   if (with_norm) {
     chart.series.push_back({"total", "estimate", times, {}});
     for (const auto& value : values) chart.series.back().y.push_back(value.norm());
   }
-  for (int axis = 0; axis < 3; ++axis) {
-    chart.series.push_back({names[static_cast<std::size_t>(axis)], "c" + std::to_string(axis), times, {}});
-    for (const auto& value : values) chart.series.back().y.push_back(value[axis]);
+  static constexpr std::array kClasses = {"c0", "c1", "c2"};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    chart.series.push_back({names[axis], kClasses[axis], times, {}});
+    for (const auto& value : values) chart.series.back().y.push_back(value[static_cast<Eigen::Index>(axis)]);
   }
   return chart;
 }
@@ -102,14 +106,9 @@ std::string error_charts(const RunRecord& record, const TrajectoryFigures& figur
     attitude_deg.emplace_back(kDegrees * error.head<3>());
     position.emplace_back(error.tail<3>());
   }
-  LineChart position_chart = component_chart(times, position, {"forward", "left", "up"}, true);
-  position_chart.caption = "Position error";
-  position_chart.unit = "m";
-  position_chart.x = time_range(record);
-  LineChart attitude_chart = component_chart(times, attitude_deg, {"roll", "pitch", "yaw"}, false);
-  attitude_chart.caption = "Attitude error";
-  attitude_chart.unit = "deg";
-  attitude_chart.x = time_range(record);
+  LineChart position_chart = component_chart("Position error", "m", times, position, {"forward", "left", "up"}, true);
+  LineChart attitude_chart = component_chart("Attitude error", "deg", times, attitude_deg, {"roll", "pitch", "yaw"}, false);
+  position_chart.x = attitude_chart.x = time_range(record);
   return line_chart(position_chart) + line_chart(attitude_chart);
 }
 
@@ -157,7 +156,7 @@ std::string timing_chart(const RunFigures& figures) {
   std::vector<Bar> bars;
   for (const auto& [module, timing] : figures.modules) {
     if (!timing.mean_ms || !timing.p95_ms) continue;
-    bars.push_back({module_key(module), *timing.mean_ms, *timing.p95_ms,
+    bars.push_back({std::string(to_string(module)), *timing.mean_ms, *timing.p95_ms,
                     readable_text(*timing.mean_ms) + " ms, p95 " + readable_text(*timing.p95_ms) + " ms"});
   }
   return bar_chart(bars);

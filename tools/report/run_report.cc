@@ -32,10 +32,13 @@ std::string tiles(const RunFigures& figures) {
   const TrajectoryFigures& t = figures.trajectory;
   const auto degrees = t.ape ? std::optional(t.ape->rotation_deg) : std::nullopt;
   const auto metres = t.ape ? std::optional(t.ape->translation_m) : std::nullopt;
+  const auto lidar = figures.modules.find(Module::kLidar);
+  const auto share = lidar == figures.modules.end() ? std::nullopt : lidar->second.degenerate_share;
+  const auto degenerate = share ? std::optional(100.0 * *share) : std::nullopt;
   return "<div class=\"tiles\">" + tile("Drift", t.drift_percent, "%") + tile("Progress", t.progress.whole, "× true") +
          tile("Progress, worst 5 s", t.progress.worst_5s, "× true") + tile("Position error, rms", metres, "m") +
          tile("Attitude error, rms", degrees, "°") + tile("Map error, rms", figures.map.rmse_m, "m") +
-         tile("Distance", t.distance_m, "m") + tile("Duration", t.duration_s, "s") +
+         tile("Scan matching degenerate", degenerate, "%") + tile("Distance", t.distance_m, "m") + tile("Duration", t.duration_s, "s") +
          tile("Speed", figures.real_time_factor, "× real time") + "</div>";
 }
 

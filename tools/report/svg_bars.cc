@@ -10,7 +10,7 @@ constexpr double kStripHeight = 18.0;
 constexpr double kStripPitch = 26.0;
 constexpr double kBarHeight = 20.0;
 constexpr double kBarPitch = 40.0;
-constexpr double kBarTextWidth = 210.0;
+constexpr double kBarTextWidth = 260.0;
 
 std::string svg_rectangle(double x, double y, double width, double height, const std::string& css_class) {
   return "<rect class=\"" + css_class + "\" x=\"" + coordinate(x) + "\" y=\"" + coordinate(y) + "\" width=\"" +

@@ -12,7 +12,7 @@
 namespace plumbline {
 namespace {
 
-constexpr double kTop = 26.0;
+constexpr double kTop = 12.0;
 constexpr double kBottomMargin = 28.0;
 constexpr std::size_t kMaxPoints = 1500;
 
@@ -129,9 +129,10 @@ std::string line_chart(const LineChart& chart) {
   const ChartScale to_x(chart.x, kChartLeft, kChartRight);
   const ChartScale to_y(y, bottom, kTop);
 
-  std::string html = "<figure class=\"chart\"><figcaption>" + escape_markup(chart.caption) + "</figcaption>";
+  std::string html = "<figure class=\"chart\"><figcaption>" + escape_markup(chart.caption);
+  if (!chart.unit.empty()) html += " <small>" + escape_markup(chart.unit) + "</small>";
+  html += "</figcaption>";
   html += legend_of(chart) + svg_open(kChartWidth, chart.height, chart.caption);
-  html += svg_text(kChartLeft - 6.0, 14.0, "end", chart.unit);
   html += x_axis(chart.x, kTop, bottom, chart.x_label) + y_axis(y, bottom, chart.logarithmic);
   for (const ChartSeries& line : lines) html += polyline(line, to_x, to_y);
   return html + "</svg></figure>";

@@ -23,7 +23,7 @@ struct ChartRange {
 
 struct LineChart {
   std::string caption;
-  std::string unit;  ///< of y, written above the axis
+  std::string unit;  ///< of y, written after the caption
   ChartRange x;      ///< the same for all charts that stand above each other
   std::string x_label = "time [s]";
   bool logarithmic = false;  ///< values that are not positive break the line

@@ -1,0 +1,88 @@
+#include "scenarios/recorder.h"
+
+#include <array>
+#include <chrono>
+#include <exception>
+
+namespace plumbline {
+namespace {
+
+constexpr std::array<double, 3> kSnapshotShares{1.0 / 6.0, 1.0 / 2.0, 5.0 / 6.0};
+
+}  // namespace
+
+template <typename Call>
+double Recorder::guarded(Call call) {
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    call();
+  } catch (const std::exception& error) {
+    set_fault(std::string("the estimator threw: ") + error.what());
+  } catch (...) {
+    set_fault("the estimator threw something that is no std::exception");
+  }
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+  record_.estimator_wall_s += wall.count();
+  return wall.count();
+}
+
+template <typename Message>
+void Recorder::add(Module module, std::int64_t stamp_ns, const Message& message) {
+  if (faulted()) return;
+  ++record_.messages[module].produced;
+  const double wall_s = guarded([&] { estimator_.add(message); });
+  record_.timing.push_back({stamp_ns, module, wall_s});
+}
+
+void Recorder::deliver(const ImuSample& sample) {
+  add(Module::kImu, sample.stamp_ns, sample);
+  take();
+}
+
+void Recorder::deliver(const CameraFrame& frame) {
+  add(Module::kVision, frame.stamp_ns, frame);
+  take_snapshot(frame);
+}
+
+void Recorder::deliver(const LidarScan& scan) { add(Module::kLidar, scan.end_ns, scan); }
+
+void Recorder::add_truth(std::int64_t stamp_ns, const Pose& world_from_body) {
+  record_.ground_truth.push_back({stamp_ns, world_from_body});
+}
+
+void Recorder::take() {
+  if (faulted()) return;
+  std::vector<Odometry> outputs;
+  guarded([&] { outputs = estimator_.take(); });
+  for (auto& output : outputs) {
+    record_.health.insert(record_.health.end(), output.health.begin(), output.health.end());
+    output.health.clear();
+    record_.estimate.push_back({output.stamp_ns, output.world_from_body});
+    record_.estimator_lost = output.lost;
+    record_.odometry.push_back(std::move(output));
+  }
+}
+
+void Recorder::take_snapshot(const CameraFrame& frame) {
+  const std::size_t taken = record_.snapshots.size();
+  if (faulted() || taken == kSnapshotShares.size()) return;
+  if (static_cast<double>(frame.stamp_ns) < kSnapshotShares[taken] * static_cast<double>(duration_ns_)) return;
+  FrameSnapshot snapshot{frame, {}};
+  guarded([&] { snapshot.features = estimator_.features(); });
+  record_.snapshots.push_back(std::move(snapshot));
+}
+
+RunRecord Recorder::finish() {
+  guarded([&] {
+    for (auto& [module, tally] : record_.messages) {
+      MessageCounts counts = estimator_.counts(module);
+      tally.used = counts.used;
+      tally.dropped = std::move(counts.dropped);
+    }
+    record_.map = estimator_.map();
+  });
+  if (interrupted_ && !faulted()) record_.fault = "interrupted";
+  return std::move(record_);
+}
+
+}  // namespace plumbline

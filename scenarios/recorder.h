@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+
+#include "scenarios/run_record.h"
+
+namespace plumbline {
+
+/// Hands messages to an estimator and keeps what comes of it. An estimator that throws is not called again; what it
+/// threw becomes the record's fault.
+class Recorder {
+ public:
+  /// The estimator must outlive the recorder.
+  Recorder(Estimator& estimator, std::int64_t duration_ns) : estimator_(estimator), duration_ns_(duration_ns) {}
+
+  void deliver(const ImuSample& sample);
+  void deliver(const CameraFrame& frame);
+  void deliver(const LidarScan& scan);
+  void add_truth(std::int64_t stamp_ns, const Pose& world_from_body);
+  void add_sensors_wall(double wall_s) { record_.sensors_wall_s += wall_s; }
+
+  /// Marks the record as ended before its time.
+  void interrupt() { interrupted_ = true; }
+
+  bool faulted() const { return !record_.fault.empty(); }
+  /// The record, completed by the estimator's counts and map. The recorder is used up.
+  RunRecord finish();
+
+ private:
+  template <typename Message>
+  void add(Module module, std::int64_t stamp_ns, const Message& message);
+  void take();
+  void take_snapshot(const CameraFrame& frame);
+  /// Calls the estimator; returns the wall time [s].
+  template <typename Call>
+  double guarded(Call call);
+
+  Estimator& estimator_;
+  std::int64_t duration_ns_ = 0;
+  bool interrupted_ = false;
+  RunRecord record_;
+};
+
+}  // namespace plumbline

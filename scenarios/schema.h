@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenarios/config_reader.h"
+#include "scenarios/scenario.h"
+
+/// The keys of a scenario file, a function per section. Each leaves the default where the file says nothing; each
+/// throws InputError.
+namespace plumbline {
+
+void read_world(ConfigReader& reader, WorldConfig& config);
+void read_motion(ConfigReader& reader, MotionConfig& config);
+void read_rig(ConfigReader& reader, RigConfig& config);
+void read_estimator(ConfigReader& reader, std::string& name, EstimatorConfig& config);
+void read_expect(ConfigReader& reader, std::vector<Expectation>& expect, std::optional<std::string>& status);
+
+}  // namespace plumbline

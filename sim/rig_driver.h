@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "estimator/geometry/interpolation.h"
+#include "sim/trajectory.h"
+#include "sim/world.h"
+
+namespace plumbline {
+
+/// The motion of a sensor pack fixed to a moving vehicle, its stamps counted from the motion's start. Between knots
+/// 10 ms apart the pack's own spline is the truth, so that every sensor on it sees one and the same motion.
+Trajectory mounted_on(const Trajectory& world_from_vehicle, const Pose& vehicle_from_pack);
+
+/// Carries the world's mocap rig body along a trajectory, in small steps of MuJoCo's kinematics, and keeps where it
+/// has been. The world itself is not touched: every driver moves its own copy of the state.
+class RigDriver {
+ public:
+  /// Both must outlive the driver. The trajectory must start at stamp 0.
+  RigDriver(const World& world, const Trajectory& world_from_body);
+  RigDriver(const RigDriver&) = delete;
+  RigDriver& operator=(const RigDriver&) = delete;
+  ~RigDriver();
+
+  /// Moves on until the track covers stamp_ns.
+  void advance_to(std::int64_t stamp_ns);
+  /// Drops what reading at or after stamp_ns does not need.
+  void forget_before(std::int64_t stamp_ns) { track_.forget_before(stamp_ns); }
+  const PoseTrack& world_from_body() const { return track_; }
+
+ private:
+  void step_to(std::int64_t stamp_ns);
+
+  struct DataDeleter {
+    void operator()(mjData_* data) const;
+  };
+  const mjModel_& model_;
+  const Trajectory& trajectory_;
+  std::unique_ptr<mjData_, DataDeleter> data_;
+  int rig_body_ = -1;
+  PoseTrack track_;
+};
+
+}  // namespace plumbline

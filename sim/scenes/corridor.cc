@@ -1,0 +1,220 @@
+#include "sim/scenes/corridor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "sim/scenes/palette.h"
+#include "sim/scenes/walls.h"
+
+namespace plumbline {
+namespace {
+
+constexpr double kWallM = 0.2;
+constexpr double kDoorWidthM = 1.0;
+constexpr double kDoorHeightM = 2.05;
+constexpr double kDoorShare = 0.75;  // of the places for one that have a door
+constexpr double kNarrowM = 2.3;     // no cabinets in corridors narrower than this
+
+/// One straight leg, in a frame with its origin at the leg's first corner and x along it.
+struct Leg {
+  Pose world_from_leg;
+  double length = 0.0;  ///< from corner to corner
+  double half_width = 0.0;
+  double height = 0.0;
+  double door_spacing = 0.0;
+  int turn_before = 0;  ///< +1 left, -1 right, 0: the corridor begins here
+  int turn_after = 0;
+  std::string name;  ///< of its random streams
+
+  /// Where a side's wall begins and ends: the inner wall of a turn stops short of the corner, the outer one passes it.
+  double wall_begin(int side) const { return turn_before == 0 ? 0.0 : side * turn_before * half_width; }
+  double wall_end(int side) const { return turn_after == 0 ? length : length - side * turn_after * half_width; }
+};
+
+constexpr int kLeft = +1;
+constexpr int kRight = -1;
+
+std::vector<Leg> make_legs(const SceneValues& values) {
+  const int turns = static_cast<int>(std::lround(values.at("turns")));
+  std::vector<Leg> legs;
+  Eigen::Vector3d corner = Eigen::Vector3d::Zero();
+  for (int i = 0; i <= turns; ++i) {
+    const bool along_x = i % 2 == 0;
+    Leg leg;
+    leg.world_from_leg = upright_frame(corner, along_x ? 0.0 : M_PI / 2.0);
+    leg.length = values.at("length_m") / (turns + 1);
+    leg.half_width = values.at("width_m") / 2.0;
+    leg.height = values.at("height_m");
+    leg.door_spacing = values.at("door_spacing_m");
+    leg.turn_before = i == 0 ? 0 : (along_x ? kRight : kLeft);
+    leg.turn_after = i == turns ? 0 : (along_x ? kLeft : kRight);
+    leg.name = "corridor/leg" + std::to_string(i);
+    legs.push_back(leg);
+    corner = leg.world_from_leg * Eigen::Vector3d(leg.length, 0.0, 0.0);
+  }
+  return legs;
+}
+
+Wall wall_between(const Leg& leg, const Eigen::Vector3d& from_in_leg, const Eigen::Vector3d& to_in_leg) {
+  const Eigen::Vector3d from = leg.world_from_leg * from_in_leg;
+  const Eigen::Vector3d to = leg.world_from_leg * to_in_leg;
+  Wall wall;
+  wall.from = from.head<2>();
+  wall.to = to.head<2>();
+  wall.height_m = leg.height;
+  wall.thickness_m = kWallM;
+  wall.section_m = 5.0;
+  return wall;
+}
+
+// Outer walls run past their ends by their own thickness, so that no light gets through the corners. At an inner corner
+// the second leg's wall begins behind the first one's, so that no two faces coincide.
+Wall side_wall(const Leg& leg, int side) {
+  const double y = side * leg.half_width;
+  const double begin = leg.wall_begin(side) + (side * leg.turn_before == 1 ? kWallM : -kWallM);
+  const double end = leg.wall_end(side) + (side * leg.turn_after == 1 ? 0.0 : kWallM);
+  return side == kRight ? wall_between(leg, {begin, y, 0.0}, {end, y, 0.0})
+                        : wall_between(leg, {end, y, 0.0}, {begin, y, 0.0});
+}
+
+/// Middles of equal slots along a wall, clear of its ends.
+std::vector<double> slots(double wall_length, double spacing) {
+  constexpr double kClearOfCorners = 0.8;
+  const double usable = wall_length - 2.0 * kClearOfCorners;
+  const int count = static_cast<int>(usable / spacing);
+  std::vector<double> middles;
+  for (int i = 0; i < count; ++i) middles.push_back(kClearOfCorners + usable * (i + 0.5) / count);
+  return middles;
+}
+
+// Closed doors, set back in their wall behind a threshold.
+void add_door(MjcfWriter& writer, const Wall& wall, const Opening& opening, RandomStream& stream) {
+  writer.box(pick(stream, {"door_paint", "door_oak"}), {opening.begin_m, -kWallM, 0.0},
+             {opening.end_m, -kWallM + 0.05, opening.height_m}, frame_of(wall));
+  writer.box("frame_paint", {opening.begin_m, -kWallM, -0.2}, {opening.end_m, 0.0, 0.0}, frame_of(wall));
+  add_door_frame(writer, wall, opening);
+}
+
+void add_wall_thing(MjcfWriter& writer, const Leg& leg, const Pose& world_from_wall, double along,
+                    RandomStream& stream) {
+  const double kind = stream.uniform();
+  Fixture fixture{.material = "plaster", .along_m = along + stream.uniform(-0.1, 0.1)};
+  if (kind < 0.3) {  // pilaster
+    fixture.height_m = leg.height / 2.0;
+    fixture.width_m = 0.4;
+    fixture.tall_m = leg.height;
+    fixture.depth_m = 0.15;
+  } else if (kind < 0.65) {
+    fixture.material = pick(stream, sign_materials());
+    fixture.height_m = stream.uniform(1.4, 1.7);
+    fixture.width_m = stream.uniform(0.6, 1.0);
+    fixture.tall_m = stream.uniform(0.5, 0.9);
+    fixture.depth_m = 0.03;
+  } else if (kind < 0.82 || 2.0 * leg.half_width < kNarrowM) {  // radiator
+    fixture.material = "panels_white";
+    fixture.height_m = 0.45;
+    fixture.width_m = 1.0;
+    fixture.tall_m = 0.6;
+    fixture.depth_m = 0.12;
+  } else {
+    fixture.material = pick(stream, {"steel", "panels_grey", "door_oak"});
+    fixture.height_m = 0.9;
+    fixture.width_m = 0.9;
+    fixture.tall_m = 1.8;
+    fixture.depth_m = 0.25;
+  }
+  add_fixture(writer, world_from_wall, fixture);
+}
+
+// Doors in the middles of the slots, other things between them.
+void add_side(MjcfWriter& writer, const Leg& leg, int side, std::uint64_t seed) {
+  RandomStream stream(seed, leg.name + (side == kLeft ? "/left" : "/right"));
+  Wall wall = side_wall(leg, side);
+  const std::vector<double> middles = slots((wall.to - wall.from).norm(), leg.door_spacing);
+  for (const double middle : middles) {
+    if (stream.uniform() >= kDoorShare) continue;
+    wall.openings.push_back({middle - kDoorWidthM / 2.0, middle + kDoorWidthM / 2.0, kDoorHeightM});
+    add_door(writer, wall, wall.openings.back(), stream);
+  }
+  add_wall(writer, wall, wall_materials(), stream);
+  for (std::size_t i = 1; i < middles.size(); ++i) {
+    add_wall_thing(writer, leg, frame_of(wall), (middles[i - 1] + middles[i]) / 2.0, stream);
+  }
+}
+
+// Flush stretches of differing ground; the square of a corner belongs to the leg before it.
+void add_floor_and_ceiling(MjcfWriter& writer, const Leg& leg, RandomStream& stream) {
+  const double begin = leg.turn_before == 0 ? -kWallM : leg.half_width;
+  const double end = leg.length + (leg.turn_after == 0 ? kWallM : leg.half_width);
+  const double y = leg.half_width + (leg.turn_before == 0 ? kWallM : 0.0);
+  std::string floor;
+  std::string ceiling;
+  const std::vector<double> cuts = random_cuts(stream, begin, end, 3.0, 6.0);
+  for (std::size_t i = 1; i < cuts.size(); ++i) {
+    floor = pick_other_than(floor, stream, indoor_floor_materials());
+    ceiling = pick_other_than(ceiling, stream, {"plaster", "panels_white", "panels_grey"});
+    writer.box(floor, {cuts[i - 1], -y, -0.2}, {cuts[i], y, 0.0}, leg.world_from_leg);
+    writer.box(ceiling, {cuts[i - 1], -y, leg.height}, {cuts[i], y, leg.height + 0.2}, leg.world_from_leg);
+  }
+}
+
+void add_lamps(MjcfWriter& writer, const Leg& leg, RandomStream& stream) {
+  constexpr double kSpacing = 6.0;
+  const int count = std::max(1, static_cast<int>(leg.length / kSpacing));
+  for (int i = 0; i < count; ++i) {
+    const double along = leg.length * (i + 0.5) / count + stream.uniform(-0.5, 0.5);
+    const double y = stream.uniform(-0.2, 0.2);
+    writer.box("lamp_housing", {along - 0.5, y - 0.1, leg.height - 0.06}, {along + 0.5, y + 0.1, leg.height},
+               leg.world_from_leg);
+    writer.lamp(
+        {leg.world_from_leg * Eigen::Vector3d(along, y, leg.height - 0.35), stream.uniform(120.0, 200.0), 11.0});
+  }
+}
+
+void add_cable_tray(MjcfWriter& writer, const Leg& leg) {
+  const double y = leg.half_width - 0.12;
+  writer.cylinder("pipe_galvanised", {leg.wall_begin(kLeft), y, leg.height - 0.12},
+                  {leg.wall_end(kLeft), y, leg.height - 0.12}, 0.05, leg.world_from_leg);
+}
+
+void add_leg(MjcfWriter& writer, const Leg& leg, std::uint64_t seed) {
+  add_side(writer, leg, kLeft, seed);
+  add_side(writer, leg, kRight, seed);
+  RandomStream grounds(seed, leg.name + "/grounds");
+  add_floor_and_ceiling(writer, leg, grounds);
+  RandomStream lamps(seed, leg.name + "/lamps");
+  add_lamps(writer, leg, lamps);
+  add_cable_tray(writer, leg);
+}
+
+void add_end_walls(MjcfWriter& writer, const Leg& first, const Leg& last, RandomStream& stream) {
+  const double y = first.half_width;
+  add_wall(writer, wall_between(first, {0.0, y, 0.0}, {0.0, -y, 0.0}), wall_materials(), stream);
+  add_wall(writer, wall_between(last, {last.length, -y, 0.0}, {last.length, y, 0.0}), wall_materials(), stream);
+}
+
+SceneDescription build_corridor(const SceneValues& values, std::uint64_t world_seed) {
+  MjcfWriter writer;
+  const std::vector<Leg> legs = make_legs(values);
+  for (const Leg& leg : legs) add_leg(writer, leg, world_seed);
+  RandomStream ends(world_seed, "corridor/ends");
+  add_end_walls(writer, legs.front(), legs.back(), ends);
+  return writer.finish("corridor", scene_palette(), 30.0, 0.0);
+}
+
+}  // namespace
+
+SceneInfo corridor_scene() {
+  return {.name = "corridor",
+          .summary = "office corridor with turns, recessed doors, boards, radiators and cabinets",
+          .parameters = {{"length_m", 84, 60, 400, "of the centre line, all legs together"},
+                         {"turns", 3, 0, 8, "left and right by turns", true},
+                         {"width_m", 2.5, 1.8, 4, "from wall to wall"},
+                         {"height_m", 2.6, 2.4, 4, "of the ceiling"},
+                         {"door_spacing_m", 4, 2.5, 20, "between places for a door"}},
+          .build = build_corridor};
+}
+
+}  // namespace plumbline

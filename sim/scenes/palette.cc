@@ -1,0 +1,96 @@
+#include "sim/scenes/palette.h"
+
+namespace plumbline {
+
+using Pattern = Material::Pattern;
+
+const std::vector<Material>& scene_palette() {
+  // name, pattern, albedo, contrast, reflectivity at 905 nm
+  static const std::vector<Material> materials = {
+      {"concrete_pale", Pattern::kConcrete, 0.58F, 1.0F, 0.50F},
+      {"concrete_grey", Pattern::kConcrete, 0.42F, 1.0F, 0.40F},
+      {"concrete_dark", Pattern::kConcrete, 0.28F, 1.0F, 0.30F},
+      {"plaster", Pattern::kConcrete, 0.70F, 0.8F, 0.65F},
+      {"brick_red", Pattern::kBrick, 0.30F, 1.0F, 0.40F},
+      {"brick_pale", Pattern::kBrick, 0.50F, 1.0F, 0.50F},
+      {"panels_white", Pattern::kPanels, 0.70F, 1.0F, 0.70F},
+      {"panels_blue", Pattern::kPanels, 0.26F, 1.0F, 0.35F},
+      {"panels_green", Pattern::kPanels, 0.38F, 1.0F, 0.45F},
+      {"panels_grey", Pattern::kPanels, 0.48F, 1.0F, 0.45F},
+      {"sign_yellow", Pattern::kSigns, 0.60F, 1.0F, 0.95F},
+      {"sign_blue", Pattern::kSigns, 0.35F, 1.0F, 0.90F},
+      {"sign_white", Pattern::kSigns, 0.72F, 1.0F, 0.95F},
+      {"notice_board", Pattern::kSigns, 0.50F, 1.0F, 0.50F},
+      {"asphalt", Pattern::kAsphalt, 0.16F, 1.0F, 0.12F},
+      {"asphalt_worn", Pattern::kAsphalt, 0.24F, 1.0F, 0.18F},
+      {"floor_screed", Pattern::kConcrete, 0.36F, 1.0F, 0.30F},
+      {"floor_tiles", Pattern::kPanels, 0.45F, 0.8F, 0.35F},
+      {"floor_lino", Pattern::kAsphalt, 0.38F, 0.8F, 0.30F},
+      {"road_paint", Pattern::kAsphalt, 0.75F, 0.6F, 0.85F},
+      {"steel", Pattern::kPanels, 0.40F, 0.7F, 0.45F},
+      {"lamp_housing", Pattern::kPlain, 0.80F, 0.2F, 0.70F},
+      {"pipe_red", Pattern::kPanels, 0.24F, 0.8F, 0.40F},
+      {"pipe_galvanised", Pattern::kPanels, 0.52F, 0.8F, 0.50F},
+      {"door_paint", Pattern::kPanels, 0.33F, 0.8F, 0.40F},
+      {"door_oak", Pattern::kPanels, 0.22F, 1.0F, 0.40F},
+      {"frame_paint", Pattern::kConcrete, 0.20F, 0.5F, 0.30F},
+      {"car_white", Pattern::kPanels, 0.68F, 0.6F, 0.60F},
+      {"car_red", Pattern::kPanels, 0.22F, 0.6F, 0.45F},
+      {"car_grey", Pattern::kPanels, 0.35F, 0.6F, 0.25F},
+      {"car_black", Pattern::kPanels, 0.10F, 0.6F, 0.08F},
+      {"rubber", Pattern::kAsphalt, 0.08F, 0.6F, 0.08F},
+      {"crate_wood", Pattern::kBrick, 0.45F, 1.0F, 0.50F},
+      {"crate_board", Pattern::kSigns, 0.52F, 1.0F, 0.55F},
+      {"barrel_blue", Pattern::kPanels, 0.25F, 1.0F, 0.30F},
+      {"barrel_orange", Pattern::kSigns, 0.45F, 1.0F, 0.60F},
+  };
+  return materials;
+}
+
+const std::vector<std::string>& wall_materials() {
+  static const std::vector<std::string> names = {"concrete_pale", "concrete_grey", "concrete_dark", "brick_red",
+                                                 "brick_pale",    "panels_white",  "panels_blue",   "panels_green"};
+  return names;
+}
+
+const std::vector<std::string>& sign_materials() {
+  static const std::vector<std::string> names = {"sign_yellow", "sign_blue", "sign_white", "notice_board"};
+  return names;
+}
+
+const std::vector<std::string>& vehicle_materials() {
+  static const std::vector<std::string> names = {"car_white", "car_red", "car_grey", "car_black"};
+  return names;
+}
+
+const std::vector<std::string>& crate_materials() {
+  static const std::vector<std::string> names = {"crate_wood", "crate_board", "panels_grey"};
+  return names;
+}
+
+const std::vector<std::string>& barrel_materials() {
+  static const std::vector<std::string> names = {"barrel_blue", "barrel_orange", "steel"};
+  return names;
+}
+
+const std::vector<std::string>& road_materials() {
+  static const std::vector<std::string> names = {"asphalt", "asphalt_worn", "floor_screed"};
+  return names;
+}
+
+const std::vector<std::string>& indoor_floor_materials() {
+  static const std::vector<std::string> names = {"floor_screed", "floor_tiles", "floor_lino"};
+  return names;
+}
+
+std::string pick(RandomStream& stream, const std::vector<std::string>& names) {
+  return names[static_cast<std::size_t>(stream.integer(0, static_cast<int>(names.size()) - 1))];
+}
+
+std::string pick_other_than(const std::string& last, RandomStream& stream, const std::vector<std::string>& names) {
+  std::string name = pick(stream, names);
+  while (name == last) name = pick(stream, names);
+  return name;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,107 @@
+#include "estimator/lidar/correspondence.h"
+
+#include <gtest/gtest.h>
+
+#include "estimator/geometry/so3.h"
+#include "sim/random_stream.h"
+#include "tests/support/jacobian_check.h"
+
+namespace plumbline {
+namespace {
+
+std::vector<Pose> poses() {
+  return {{},
+          {exp_so3({1e-5, 0.0, -1e-5}), {0.1, 0.0, 0.0}},
+          {exp_so3({0.4, -1.1, 2.0}), {12.0, -7.0, 3.0}},
+          {exp_so3({-2.0, 1.5, 0.3}), {900.0, 40.0, -5.0}}};
+}
+
+const Eigen::Vector3d kPoint(3.0, -5.0, 0.7);
+
+TEST(Correspondence, PlaneRowJacobianMatchesCentralDifferences) {
+  const MapPlane plane = {Eigen::Vector3d(0.3, -0.5, 0.8).normalized(), 2.0};
+  const auto rows_at = [&](const Pose& pose) {
+    ResidualRows rows;
+    add_plane_row(kPoint, plane, pose, 0.02, rows);
+    return rows;
+  };
+  for (const Pose& pose : poses()) {
+    testing::expect_jacobian_near([&](const Pose& p) { return rows_at(p).residual(0); }, pose, rows_at(pose).jacobian(0));
+  }
+}
+
+TEST(Correspondence, LineRowJacobiansMatchCentralDifferencesAlsoOnTheLine) {
+  MapLine line = {{1.0, 2.0, 3.0}, Eigen::Vector3d(1.0, 1.0, 0.0).normalized(), Eigen::Vector3d::UnitZ()};
+  for (const Pose& pose : poses()) {
+    for (const bool on_line : {false, true}) {
+      if (on_line) line.point = pose * kPoint;  // where the norm (5.14) has no derivative
+      const auto rows_at = [&](const Pose& p) {
+        ResidualRows rows;
+        add_line_rows(kPoint, line, p, 0.02, rows);
+        return rows;
+      };
+      ASSERT_EQ(rows_at(pose).feature_count(), 1);
+      for (const int r : {0, 1}) {
+        testing::expect_jacobian_near([&](const Pose& p) { return rows_at(p).residual(r); }, pose,
+                                      rows_at(pose).jacobian(r));
+      }
+    }
+  }
+}
+
+NearestSamples offered(const std::vector<MapSample>& samples) {
+  NearestSamples nearest(NearestSamples::kCapacity, 100.0, Eigen::Vector3f::Zero());
+  for (const MapSample& s : samples) nearest.offer(s.position.squaredNorm(), s);
+  return nearest;
+}
+
+std::vector<MapSample> grid(int across, double spacing, double sigma) {
+  RandomStream random(1, "grid");
+  std::vector<MapSample> samples;
+  for (int k = 0; k < 10; ++k) {
+    MapSample s;
+    s.position = {spacing * (k / across), spacing * (k % across), sigma * random.gaussian()};
+    samples.push_back(s);
+  }
+  return samples;
+}
+
+TEST(Correspondence, FindsAPlaneThroughTwoRings) {
+  const auto samples = grid(2, 0.4, 0.01);
+  const auto plane = fit_plane(offered(samples), {});
+  ASSERT_TRUE(plane.has_value());
+  EXPECT_GT(std::abs(plane->normal.z()), std::cos(0.05));
+}
+
+TEST(Correspondence, NeighboursOfASingleRingAreNoPlane) {
+  const auto samples = grid(1, 0.2, 0.01);
+  EXPECT_FALSE(fit_plane(offered(samples), {}).has_value());
+  const auto line = fit_line(offered(samples), {});
+  ASSERT_TRUE(line.has_value());
+  EXPECT_LT(std::abs(line->across_1.x()), 0.05);
+  EXPECT_LT(std::abs(line->across_2.x()), 0.05);
+}
+
+TEST(Correspondence, ABlobIsNeitherPlaneNorLine) {
+  const auto samples = grid(3, 0.3, 0.3);
+  EXPECT_FALSE(fit_plane(offered(samples), {}).has_value());
+  EXPECT_FALSE(fit_line(offered(samples), {}).has_value());
+}
+
+TEST(Correspondence, OfTwoParallelEdgesTheNearerOnesLineIsFound) {
+  std::vector<MapSample> samples;
+  for (int k = 0; k < 8; ++k) {
+    MapSample near;
+    near.position = {0.0, 0.0, 0.1 + 0.1 * k};
+    MapSample far;
+    far.position = {0.12, 0.0, 0.1 + 0.1 * k};
+    samples.push_back(near);
+    samples.push_back(far);
+  }
+  const auto line = fit_line(offered(samples), {.largest_residual_m = 0.03});
+  ASSERT_TRUE(line.has_value());
+  EXPECT_NEAR(line->point.x(), 0.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace plumbline

@@ -1,0 +1,134 @@
+#include "estimator/lidar/features.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "estimator/lidar/deskew.h"
+#include "estimator/lidar/direction_sampling.h"
+#include "tests/support/box_world.h"
+
+namespace plumbline {
+namespace {
+
+using testing::BoxWorld;
+
+constexpr double kRangeSigma = 0.012;
+
+FeatureCloud features_at(const BoxWorld& world, const Pose& pose, std::uint64_t seed = 1) {
+  Calibration calibration;
+  calibration.lidar_range_sigma_m = kRangeSigma;
+  RandomStream noise(seed, "lidar");
+  const LidarScan scan = testing::vlp16_scan(world, [&](double) { return pose; }, 0, {}, kRangeSigma, noise);
+  PoseTrack rest;
+  rest.push(0, {});
+  return extract_features(scan, deskew(scan, rest, {}, 0), calibration);
+}
+
+Pose at(double x, double y, double z) { return {Eigen::Quaterniond::Identity(), {x, y, z}}; }
+
+TEST(Features, SmoothWallsWithNoiseHaveNoEdges) {
+  BoxWorld two_walls;
+  two_walls.boxes.push_back({{-1000.0, -2.0, -1000.0}, {1000.0, 2.0, 1000.0}, true});
+  BoxWorld tube;
+  tube.tube_radius_m = 2.25;
+  int edges = 0;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    edges += static_cast<int>(features_at(two_walls, at(0.0, 0.0, 0.0), seed).edges.size());
+    edges += static_cast<int>(features_at(two_walls, at(0.0, 1.2, 0.0), seed).edges.size());
+    edges += static_cast<int>(features_at(tube, at(0.0, 0.0, 0.0), seed).edges.size());
+    edges += static_cast<int>(features_at(tube, at(0.0, 0.8, 0.2), seed).edges.size());
+  }
+  EXPECT_LE(edges, 2) << "of 570,000 returns";
+}
+
+TEST(Features, FindsTheCornersOfARoomToAFractionOfTheNoise) {
+  BoxWorld room;
+  room.boxes.push_back({{-3.0, -2.0, -50.0}, {4.0, 2.5, 50.0}, true});  // so tall that only the four corners are edges
+  const FeatureCloud cloud = features_at(room, at(0.0, 0.0, 0.0));
+  EXPECT_GE(cloud.edges.size(), 60U);  // 4 corners x 16 rings
+  double sum = 0.0;
+  for (const FeaturePoint& e : cloud.edges) {
+    const double dx = std::min(std::abs(e.position.x() + 3.0F), std::abs(e.position.x() - 4.0F));
+    const double dy = std::min(std::abs(e.position.y() + 2.0F), std::abs(e.position.y() - 2.5F));
+    sum += dx * dx + dy * dy;
+  }
+  EXPECT_LT(std::sqrt(sum / static_cast<double>(cloud.edges.size())), kRangeSigma);
+}
+
+TEST(Features, OfAnOcclusionOnlyTheNearSideIsAnEdge) {
+  BoxWorld world;
+  world.boxes.push_back({{-8.0, -8.0, -50.0}, {8.0, 8.0, 50.0}, true});
+  world.boxes.push_back({{4.0, -0.5, -50.0}, {4.3, 0.5, 50.0}, false});  // a pillar whose shadow falls on the wall x = 8
+  const FeatureCloud cloud = features_at(world, at(0.0, 0.0, 0.0));
+  int near_side = 0;
+  for (const FeaturePoint& e : cloud.edges) {
+    const bool ahead = e.position.x() > 3.0F && std::abs(e.position.y()) < 2.0F;
+    if (!ahead) continue;
+    EXPECT_LT(e.position.x(), 4.5F) << "an edge at the border of the pillar's shadow";
+    ++near_side;
+  }
+  EXPECT_GE(near_side, 28);  // both borders in (nearly) every ring
+}
+
+TEST(Features, PlanesLieOnTheSurfacesAndFaceTheSensor) {
+  const BoxWorld room = testing::furnished_room();
+  const Pose pose = at(0.5, -0.5, 0.0);
+  const FeatureCloud cloud = features_at(room, pose);
+  EXPECT_GT(cloud.planes.size(), 1200U);
+  int tilted = 0;
+  int off = 0;
+  for (const FeaturePoint& p : cloud.planes) {
+    off += room.distance(pose * p.position.cast<double>()) > 4.0 * kRangeSigma ? 1 : 0;
+    EXPECT_LT(p.normal.dot(p.position), 0.0F);
+    EXPECT_NEAR(p.normal.norm(), 1.0F, 1e-4F);
+    tilted += p.normal.cwiseAbs().maxCoeff() < 0.9F ? 1 : 0;  // all true normals are axes
+  }
+  EXPECT_LT(off, static_cast<int>(cloud.planes.size()) / 100) << "beside creases, where a mean rounds the corner off";
+  EXPECT_LT(tilted, static_cast<int>(cloud.planes.size()) / 20);
+}
+
+TEST(Features, GrazedSurfacesGiveNoPlanes) {
+  BoxWorld world;
+  world.boxes.push_back({{-200.0, -200.0, -1.2}, {200.0, 200.0, 60.0}, true});
+  for (const FeaturePoint& p : features_at(world, at(0.0, 0.0, 0.0)).planes) {
+    EXPECT_GT(std::abs(p.normal.dot(p.position.normalized())), 0.15F);  // 10 degrees, less the noise of normals
+  }
+}
+
+TEST(Features, UnusableReturnsAreLeftOut) {
+  LidarScan scan;
+  scan.end_ns = 100'000'000;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const Eigen::Vector3f& p : {Eigen::Vector3f(nan, 0, 0), Eigen::Vector3f(0, 0, 0), Eigen::Vector3f(1e6, 0, 0)}) {
+    for (const std::uint16_t ring : {0, 15, 999}) {
+      LidarPoint point;
+      point.position = p;
+      point.ring = ring;
+      scan.points.push_back(point);
+    }
+  }
+  const std::vector<Eigen::Vector3f> body(scan.points.size(), Eigen::Vector3f::Ones());
+  const FeatureCloud cloud = extract_features(scan, body, {});
+  EXPECT_TRUE(cloud.edges.empty());
+  EXPECT_TRUE(cloud.planes.empty());
+}
+
+TEST(DirectionSampling, KeepsTheFewThatFaceAlongATunnel) {
+  std::vector<FeaturePoint> planes(5000);
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    planes[i].normal = Eigen::Vector3f::Unit(i % 2 == 0 ? 1 : 2);
+    if (i % 100 == 0) planes[i].normal = -Eigen::Vector3f::UnitX();
+  }
+  const auto picked = sample_by_direction(planes, 600);
+  EXPECT_LE(picked.size(), 600U);
+  EXPECT_GE(picked.size(), 595U);
+  const auto along = std::count_if(picked.begin(), picked.end(), [&](auto i) { return planes[i].normal.x() < -0.5F; });
+  EXPECT_EQ(along, 50);
+  EXPECT_TRUE(std::is_sorted(picked.begin(), picked.end()));
+  EXPECT_EQ(sample_by_direction(planes, 10000).size(), planes.size());
+}
+
+}  // namespace
+}  // namespace plumbline

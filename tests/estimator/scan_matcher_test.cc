@@ -1,0 +1,208 @@
+#include "estimator/lidar/scan_matcher.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "estimator/lidar/deskew.h"
+#include "tests/support/box_world.h"
+
+namespace plumbline {
+namespace {
+
+using testing::BoxWorld;
+
+constexpr double kRangeSigma = 0.012;
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+Calibration calibration() {
+  Calibration c;
+  c.lidar_range_sigma_m = kRangeSigma;
+  c.body_from_lidar.translation = {0.1, 0.0, 0.15};
+  return c;
+}
+
+Pose at(double x, double y = 0.0, double yaw = 0.0) { return {rotation_from_rpy({0, 0, yaw}), {x, y, 0.0}}; }
+
+FeatureCloud still_scan(const BoxWorld& world, const Pose& pose, RandomStream& noise) {
+  const Calibration c = calibration();
+  const LidarScan scan =
+      testing::vlp16_scan(world, [&](double) { return pose; }, 0, c.body_from_lidar, kRangeSigma, noise);
+  PoseTrack rest;
+  rest.push(0, {});
+  return extract_features(scan, deskew(scan, rest, c.body_from_lidar, 0), c);
+}
+
+/// A matcher that has mapped a world from true poses a little apart.
+ScanMatcher mapped(const BoxWorld& world, RandomStream& noise, bool remapping = true, int scans = 6) {
+  ScanMatcher matcher(calibration(), {}, remapping);
+  for (int k = 0; k < scans; ++k) matcher.insert(still_scan(world, at(0.1 * k), noise), at(0.1 * k), 0.1 * k);
+  return matcher;
+}
+
+PosePrior loose(const Pose& mean) { return {mean, Matrix6d::Identity() * 1.0}; }
+
+Vector6d offset(double metres, double degrees) {
+  Vector6d d;
+  d << Eigen::Vector3d(1, -1, 1).normalized() * degrees * kDegree, Eigen::Vector3d(1, 1, -1).normalized() * metres;
+  return d;
+}
+
+TEST(ScanMatcher, WithAnEmptyMapNothingIsWellConditioned) {
+  RandomStream noise(1, "lidar");
+  ScanMatcher matcher(calibration(), {}, true);
+  const SolveResult result = matcher.match(still_scan(testing::furnished_room(), at(0), noise), loose(at(0.3)));
+  EXPECT_EQ(result.spectrum.well_conditioned, 0);
+  EXPECT_EQ(at(0.3).local(result.pose).norm(), 0.0);
+}
+
+TEST(ScanMatcher, FindsBackFromTenCentimetresAndTwoDegrees) {
+  RandomStream noise(2, "lidar");
+  const BoxWorld room = testing::furnished_room();
+  ScanMatcher matcher = mapped(room, noise);
+  const Pose truth = at(0.7, 0.1, 0.05);
+  const FeatureCloud scan = still_scan(room, truth, noise);
+  for (const double sign : {1.0, -1.0}) {
+    const SolveResult result = matcher.match(scan, loose(truth.retract(sign * offset(0.1, 2.0))));
+    EXPECT_EQ(result.spectrum.well_conditioned, 6);
+    const Vector6d error = truth.local(result.pose);
+    EXPECT_LT(error.tail<3>().norm(), 0.01);
+    EXPECT_LT(error.head<3>().norm(), 0.1 * kDegree);
+  }
+}
+
+TEST(ScanMatcher, OneScanIsMapEnoughForTheNext) {
+  RandomStream noise(3, "lidar");
+  const BoxWorld room = testing::furnished_room();
+  ScanMatcher matcher = mapped(room, noise, true, 1);
+  const SolveResult result = matcher.match(still_scan(room, at(0.1), noise), loose(at(0.0)));
+  EXPECT_EQ(result.spectrum.well_conditioned, 6);
+  EXPECT_LT(at(0.1).local(result.pose).tail<3>().norm(), 0.01);
+}
+
+TEST(ScanMatcher, OutsideTheMapNothingIsWellConditioned) {
+  RandomStream noise(4, "lidar");
+  const BoxWorld room = testing::furnished_room();
+  ScanMatcher matcher = mapped(room, noise);
+  EXPECT_EQ(matcher.match(still_scan(room, at(0.5), noise), loose(at(500.0))).spectrum.well_conditioned, 0);
+}
+
+// The axis of a smooth tunnel: flagged, left exactly at the guess, and the other five directions solved.
+TEST(ScanMatcher, InATunnelOnlyTheAxisKeepsTheGuess) {
+  RandomStream noise(5, "lidar");
+  const BoxWorld tunnel = testing::smooth_tunnel();
+  ScanMatcher matcher = mapped(tunnel, noise);
+  const Pose truth = at(0.6, 0.3, 0.2);
+  const Pose guess = truth.retract(offset(0.08, 1.0));
+  const SolveResult result = matcher.match(still_scan(tunnel, truth, noise), loose(guess));
+  ASSERT_EQ(result.spectrum.well_conditioned, 5);
+  const Vector6d weak = result.spectrum.eigenvectors.col(0);
+  const Eigen::Vector3d axis_in_body = guess.rotation.conjugate() * Eigen::Vector3d::UnitX();
+  EXPECT_GT(std::abs(weak.tail<3>().dot(axis_in_body)), 0.95);
+  EXPECT_LT(std::abs(weak.dot(guess.local(result.pose))), 1e-13);
+  const Vector6d error = truth.local(result.pose);
+  const Eigen::Vector3d in_world = truth.rotation * error.tail<3>();
+  EXPECT_LT(in_world.tail<2>().norm(), 0.01);
+  EXPECT_LT(error.head<3>().norm(), 0.1 * kDegree);
+  EXPECT_GT(result.spectrum.eigenvalues[1], 50.0 * result.spectrum.eigenvalues[0]);
+}
+
+TEST(ScanMatcher, ForcedSixDofSolvesEvenTheAxisOfATunnel) {
+  RandomStream noise(6, "lidar");
+  const BoxWorld tunnel = testing::smooth_tunnel();
+  ScanMatcher matcher = mapped(tunnel, noise, false);
+  const SolveResult result = matcher.match(still_scan(tunnel, at(0.6), noise), loose(at(0.55)));
+  EXPECT_EQ(result.spectrum.well_conditioned, 6);
+}
+
+struct ConditionCase {
+  const char* name;
+  BoxWorld world;
+  int well_conditioned;
+};
+
+// The default threshold lies in the gap: an order of magnitude from both sides.
+TEST(ScanMatcher, TheThresholdSeparatesTunnelsFromCorridorsWithFrames) {
+  BoxWorld plain;
+  plain.boxes.push_back({{-200.0, -200.0, -1.2}, {200.0, 200.0, 60.0}, true});
+  const double threshold = ScanMatcherConfig{}.degeneracy_threshold;
+  const std::vector<ConditionCase> cases = {{"tunnel", testing::smooth_tunnel(), 5},
+                                            {"plain", plain, 3},
+                                            {"frames every 3 m", testing::framed_corridor(3.0), 6},
+                                            {"frames every 5 m", testing::framed_corridor(5.0), 6},
+                                            {"room", testing::furnished_room(), 6}};
+  for (const ConditionCase& c : cases) {
+    SCOPED_TRACE(c.name);
+    RandomStream noise(7, c.name);
+    ScanMatcher matcher = mapped(c.world, noise);
+    const Spectrum s = matcher.match(still_scan(c.world, at(0.6), noise), loose(at(0.6))).spectrum;
+    ASSERT_EQ(s.well_conditioned, c.well_conditioned) << s.eigenvalues.transpose();
+    EXPECT_GT(s.eigenvalues[6 - c.well_conditioned], 10.0 * threshold);
+    if (c.well_conditioned < 6) {
+      EXPECT_LT(s.eigenvalues[5 - c.well_conditioned], threshold / 5.0);
+    }
+  }
+}
+
+TEST(ScanMatcher, NothingOlderThanTheMemoryIsMatched) {
+  RandomStream noise(8, "lidar");
+  const BoxWorld room = testing::furnished_room();
+  ScanMatcher matcher(calibration(), {}, true);
+  const FeatureCloud scan = still_scan(room, at(0.0), noise);
+  matcher.insert(scan, at(0.0), 0.0);
+  const std::size_t points = matcher.map().size();
+  matcher.insert({}, at(0.0), 299.0);
+  EXPECT_EQ(matcher.match(scan, loose(at(0.0))).spectrum.well_conditioned, 6);
+  matcher.insert({}, at(0.0), 301.0);
+  EXPECT_EQ(matcher.match(scan, loose(at(0.0))).features, 0);
+  EXPECT_EQ(matcher.map().size(), points);
+}
+
+TEST(ScanMatcher, IsDeterministic) {
+  const auto run = [] {
+    RandomStream noise(9, "lidar");
+    const BoxWorld room = testing::furnished_room();
+    ScanMatcher matcher = mapped(room, noise);
+    const Pose pose = matcher.match(still_scan(room, at(0.6), noise), loose(at(0.5))).pose;
+    return std::pair(pose.translation, matcher.map().size());
+  };
+  EXPECT_EQ(run(), run());
+}
+
+// Fifty metres with nothing but scans: the guess is the previous motion again, and the same guess de-skews. All of what
+// the pipeline adds (IMU, vision) is missing, and the body rolls, pitches and yaws meanwhile.
+TEST(ScanMatcher, ScanToMapOdometryDriftsLittleOverFiftyMetres) {
+  const BoxWorld hall = testing::pillared_hall(50.0);
+  const auto motion = [](double t) {
+    return Pose{rotation_from_rpy({0.02 * std::sin(2.0 * t), 0.02 * std::sin(2.5 * t), 0.15 * std::sin(0.7 * t)}),
+                {2.0 * t, 0.5 * std::sin(0.5 * t), 0.02 * std::sin(3.0 * t)}};
+  };
+  const Calibration c = calibration();
+  constexpr std::int64_t kPeriod_ns = 100'000'000;
+  RandomStream noise(10, "lidar");
+  ScanMatcher matcher(c, {}, true);
+  Pose before = motion(0.0);
+  Pose now = motion(0.1);  // the first scan's end; its motion is given
+  Pose guess = now;
+  double path_m = 0.0;
+  for (int k = 0; k < 250; ++k) {
+    const LidarScan scan =
+        testing::vlp16_scan(hall, motion, k * kPeriod_ns, c.body_from_lidar, kRangeSigma, noise);
+    PoseTrack track;
+    track.push(scan.stamp_ns, k == 0 ? before : now);
+    track.push(scan.end_ns, guess);
+    const FeatureCloud features = extract_features(scan, deskew(scan, track, c.body_from_lidar, scan.end_ns), c);
+    const Pose estimate = k == 0 ? guess : matcher.match(features, {guess, Matrix6d::Identity() * 0.01}).pose;
+    if (k > 0) before = now;
+    path_m += (estimate.translation - before.translation).norm();
+    now = estimate;
+    matcher.insert(features, now, path_m);
+    guess = now * (before.inverse() * now);
+  }
+  const Vector6d error = motion(25.0).local(now);
+  EXPECT_LT(error.tail<3>().norm(), 0.002 * 50.0);
+  RecordProperty("drift_mm", std::to_string(1e3 * error.tail<3>().norm()));
+}
+
+}  // namespace
+}  // namespace plumbline

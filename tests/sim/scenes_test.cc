@@ -1,0 +1,330 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+#include "sim/scene_library.h"
+#include "sim/world.h"
+#include "tests/sim/scene_routes.h"
+
+namespace plumbline {
+namespace {
+
+using test::points_along;
+using test::route_of;
+using test::scene_routes;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+constexpr std::uint64_t kSeeds[] = {1, 2, 3, 42, 0xffffffffffffffffULL};
+
+World make_world(const std::string& scene, const SceneValues& values, std::uint64_t seed) {
+  return World::from_scene(build_scene(scene, values, seed), seed);
+}
+
+SceneValues full_of_clutter(const std::string& scene) {
+  if (scene == "garage" || scene == "hall") return {{"clutter", 1.0}};
+  return {};
+}
+
+/// Distance from a point to a geom; a curved geom counts as the box around it, which errs on the safe side.
+double distance_to(const World& world, int geom, const Eigen::Vector3d& point) {
+  const mjModel& model = world.model();
+  const mjtNum* size = model.geom_size + 3 * geom;
+  Eigen::Vector3d half(size[0], size[1], size[2]);
+  if (model.geom_type[geom] == mjGEOM_CYLINDER) half = {size[0], size[0], size[1]};
+  if (model.geom_type[geom] == mjGEOM_CAPSULE) half = {size[0], size[0], size[1] + size[0]};
+  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> world_from_geom(world.data().geom_xmat +
+                                                                                       9 * geom);
+  const Eigen::Map<const Eigen::Vector3d> centre(world.data().geom_xpos + 3 * geom);
+  const Eigen::Vector3d in_geom = world_from_geom.transpose() * (point - centre);
+  return (in_geom.cwiseAbs() - half).cwiseMax(0.0).norm();
+}
+
+double clearance(const World& world, const Eigen::Vector3d& point) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int geom = 0; geom < world.model().ngeom; ++geom) nearest = std::min(nearest, distance_to(world, geom, point));
+  return nearest;
+}
+
+struct Hit {
+  double range_m = -1.0;  // negative: nothing
+  int geom = -1;
+};
+
+Hit cast(const World& world, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
+  Hit hit;
+  hit.range_m = mj_ray(&world.model(), &world.data(), origin.data(), direction.data(), nullptr, 1, -1, &hit.geom);
+  return hit;
+}
+
+std::vector<Eigen::Vector3d> sphere_directions(int count) {  // Fibonacci lattice
+  std::vector<Eigen::Vector3d> directions;
+  for (int i = 0; i < count; ++i) {
+    const double z = 1.0 - (2.0 * i + 1.0) / count;
+    const double angle = i * M_PI * (3.0 - std::sqrt(5.0));
+    const double r = std::sqrt(1.0 - z * z);
+    directions.emplace_back(r * std::cos(angle), r * std::sin(angle), z);
+  }
+  return directions;
+}
+
+std::vector<Eigen::Vector3d> vlp16_directions() {
+  std::vector<Eigen::Vector3d> directions;
+  for (int ring = 0; ring < 16; ++ring) {
+    const double elevation = (-15.0 + 2.0 * ring) * M_PI / 180.0;
+    for (int step = 0; step < 900; ++step) {
+      const double azimuth = (0.4 * step + 0.013) * M_PI / 180.0;
+      directions.emplace_back(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+                              std::sin(elevation));
+    }
+  }
+  return directions;
+}
+
+/// The face of a box that holds a point of its surface.
+Eigen::Vector3d box_normal(const World& world, int geom, const Eigen::Vector3d& point) {
+  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> world_from_geom(world.data().geom_xmat +
+                                                                                       9 * geom);
+  const Eigen::Map<const Eigen::Vector3d> centre(world.data().geom_xpos + 3 * geom);
+  const Eigen::Map<const Eigen::Vector3d> half(world.model().geom_size + 3 * geom);
+  const Eigen::Vector3d in_geom = world_from_geom.transpose() * (point - centre);
+  int axis = 0;
+  (half - in_geom.cwiseAbs()).cwiseAbs().minCoeff(&axis);
+  return world_from_geom.col(axis);
+}
+
+/// Of the returns within 100 m, the share from surfaces that face along the tunnel.
+double axis_facing_share(const World& world, const Eigen::Vector3d& place) {
+  int returns = 0;
+  int facing = 0;
+  for (const Eigen::Vector3d& direction : vlp16_directions()) {
+    const Hit hit = cast(world, place, direction);
+    if (hit.range_m < 0.0 || hit.range_m > 100.0) continue;
+    ++returns;
+    if (std::abs(box_normal(world, hit.geom, place + hit.range_m * direction).x()) > 0.5) ++facing;
+  }
+  EXPECT_GT(returns, 10000);
+  return static_cast<double>(facing) / returns;
+}
+
+/// The defaults; all at their smallest and at their largest; and each alone at either end.
+std::vector<SceneValues> extreme_values(const SceneInfo& scene) {
+  std::vector<SceneValues> all(3);
+  for (const SceneParameter& parameter : scene.parameters) {
+    all[1][parameter.name] = parameter.min;
+    all[2][parameter.name] = parameter.max;
+    all.push_back({{parameter.name, parameter.min}});
+    all.push_back({{parameter.name, parameter.max}});
+  }
+  return all;
+}
+
+TEST(SceneLibrary, SameSeedGivesTheSameBytes) {
+  for (const SceneInfo& scene : scene_library()) {
+    const SceneDescription one = build_scene(scene.name, {}, 7);
+    const SceneDescription two = build_scene(scene.name, {}, 7);
+    EXPECT_EQ(one.mjcf, two.mjcf) << scene.name;
+    ASSERT_EQ(one.lamps.size(), two.lamps.size());
+    for (std::size_t i = 0; i < one.lamps.size(); ++i) {
+      EXPECT_EQ(one.lamps[i].position, two.lamps[i].position);
+      EXPECT_EQ(one.lamps[i].intensity_cd, two.lamps[i].intensity_cd);
+    }
+  }
+}
+
+TEST(SceneLibrary, AnotherSeedGivesAnotherScene) {
+  for (const SceneInfo& scene : scene_library()) {
+    EXPECT_NE(build_scene(scene.name, {}, 7).mjcf, build_scene(scene.name, {}, 8).mjcf) << scene.name;
+  }
+}
+
+TEST(SceneLibrary, EverySceneCompilesForSeveralSeedsAndExtremeParameters) {
+  for (const SceneInfo& scene : scene_library()) {
+    for (const std::uint64_t seed : kSeeds) EXPECT_NO_THROW(make_world(scene.name, {}, seed)) << scene.name;
+    for (const SceneValues& values : extreme_values(scene)) {
+      const World world = make_world(scene.name, values, 1);
+      EXPECT_GT(world.model().ngeom, 10) << scene.name;
+      EXPECT_FALSE(world.lamps().empty()) << scene.name;
+    }
+  }
+}
+
+// The renderer draws every triangle near by, a hundred thousand times a scenario.
+TEST(SceneLibrary, DefaultScenesHaveAModerateNumberOfGeomsAndSeveralLooks) {
+  for (const SceneInfo& scene : scene_library()) {
+    const World world = make_world(scene.name, {}, 1);
+    EXPECT_LT(world.model().ngeom, 750) << scene.name;
+    EXPECT_GE(world.materials().size(), 12U) << scene.name;
+    for (int geom = 0; geom < world.model().ngeom; ++geom) EXPECT_GE(world.model().geom_matid[geom], 0);
+  }
+}
+
+TEST(SceneLibrary, MoreClutterOnlyAddsThings) {
+  for (const std::string scene : {"garage", "hall"}) {
+    const int empty = make_world(scene, {{"clutter", 0.0}}, 5).model().ngeom;
+    const int half = make_world(scene, {{"clutter", 0.5}}, 5).model().ngeom;
+    const int full = make_world(scene, {{"clutter", 1.0}}, 5).model().ngeom;
+    EXPECT_LT(empty, half) << scene;
+    EXPECT_LT(half, full) << scene;
+  }
+}
+
+TEST(SceneLibrary, ErrorsNameSceneParameterValueAndWhatIsAllowed) {
+  const auto expect_error = [](const std::string& scene, const SceneValues& values, auto matcher) {
+    EXPECT_THAT([&] { build_scene(scene, values, 1); }, ThrowsMessage<std::invalid_argument>(matcher));
+  };
+  expect_error("gerage", {}, AllOf(HasSubstr("'gerage'"), HasSubstr("garage, corridor")));
+  expect_error("garage", {{"hight_m", 3}}, AllOf(HasSubstr("'hight_m'"), HasSubstr("ceiling_m")));
+  expect_error("garage", {{"clutter", 1.5}}, AllOf(HasSubstr("clutter is 1.5"), HasSubstr("0 to 1")));
+  expect_error("garage", {{"clutter", std::nan("")}}, HasSubstr("clutter is nan"));
+  expect_error("garage", {{"hall_count", 2.5}}, HasSubstr("whole numbers"));
+  expect_error("corridor", {{"length_m", 1e300}}, HasSubstr("length_m"));
+  expect_error("tunnel", {{"rib_spacing_m", 0.5}}, HasSubstr("rib_spacing_m"));
+}
+
+TEST(SceneRoutes, KeepClearOfEverythingForEverySeedAndFullClutter) {
+  for (const auto& route : scene_routes()) {
+    for (const std::uint64_t seed : kSeeds) {
+      const World world = make_world(route.scene, full_of_clutter(route.scene), seed);
+      for (const Eigen::Vector3d& point : points_along(route.waypoints, 0.25)) {
+        ASSERT_GE(clearance(world, point), 0.8) << route.scene << " seed " << seed << " at " << point.transpose();
+      }
+    }
+  }
+}
+
+TEST(SceneRoutes, AreAsLongAsTheScenariosNeed) {
+  const auto length_of = [](const std::vector<Eigen::Vector3d>& points) {
+    double length = 0.0;
+    for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
+    return length;
+  };
+  EXPECT_GE(length_of(route_of("garage").waypoints), 110.0);
+  EXPECT_GE(length_of(route_of("corridor").waypoints), 70.0);
+  EXPECT_GE(length_of(route_of("tunnel").waypoints), 60.0);
+  EXPECT_GE(length_of(route_of("hall").waypoints), 80.0);
+}
+
+// Without clutter, where there is the most to be seen through.
+TEST(SceneRoutes, ClosedScenesLetNoRayEscape) {
+  const auto directions = sphere_directions(1500);
+  for (const std::string scene : {"garage", "corridor", "hall"}) {
+    const World world = make_world(scene, {}, 1);
+    for (const Eigen::Vector3d& place : points_along(route_of(scene).waypoints, 4.0)) {
+      for (const Eigen::Vector3d& direction : directions) {
+        ASSERT_GE(cast(world, place, direction).range_m, 0.0) << scene << " at " << place.transpose();
+      }
+    }
+  }
+}
+
+// So that a garage walk's error at its end is drift: nothing that was mapped in the first seconds can be seen again.
+TEST(Garage, WhatTheFirstElevenMetresSeeIsNotSeenFromTheEnd) {
+  const auto points = points_along(route_of("garage").waypoints, 0.5);
+  EXPECT_GE((points.back() - points.front()).norm(), 45.0);
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const World world = make_world("garage", {{"clutter", 0.0}}, seed);
+    for (std::size_t i = 0; i <= 22; i += 2) {
+      for (const Eigen::Vector3d& direction : sphere_directions(3000)) {
+        const Hit hit = cast(world, points[i], direction);
+        const Eigen::Vector3d seen = points[i] + (hit.range_m - 0.02) * direction;
+        const Eigen::Vector3d towards = seen - points.back();
+        const Hit from_end = cast(world, points.back(), towards.normalized());
+        ASSERT_LT(from_end.range_m, towards.norm() - 0.05) << "seed " << seed << ": both see " << seen.transpose();
+      }
+    }
+  }
+}
+
+TEST(Garage, DoorsAreWideAndHighEnoughToWalkThrough) {
+  const World world = make_world("garage", {}, 1);
+  for (const auto& [x, y] : {std::pair{36.1, -4.75}, std::pair{72.3, 4.75}}) {
+    const Eigen::Vector3d middle(x, y, 1.0);
+    const double left = cast(world, middle, Eigen::Vector3d::UnitY()).range_m;
+    const double right = cast(world, middle, -Eigen::Vector3d::UnitY()).range_m;
+    const double above = cast(world, middle, Eigen::Vector3d::UnitZ()).range_m;
+    EXPECT_GE(left + right, 2.4);
+    EXPECT_GE(1.0 + above, 2.3);
+  }
+}
+
+TEST(Garage, LanesStayFreeInHallsOfAnySize) {
+  const double length = 60.0;
+  const World world = make_world(
+      "garage", {{"hall_length_m", length}, {"hall_width_m", 40}, {"clutter", 1}, {"pillar_spacing_m", 4}}, 9);
+  for (double x = 2.0; x <= length - 2.0; x += 0.5) {
+    for (const double y : {-4.75, 4.75}) EXPECT_GE(clearance(world, {x, y, 1.2}), 1.1) << x << ", " << y;
+  }
+  for (double y = -6.5; y <= 6.5; y += 0.5) {
+    for (const double x : {3.5, length - 3.5}) EXPECT_GE(clearance(world, {x, y, 1.2}), 1.1) << x << ", " << y;
+  }
+}
+
+TEST(Tunnel, AlmostNothingFacesAlongIt) {
+  for (const double round : {0.0, 1.0}) {
+    const World world = make_world("tunnel", {{"round_section", round}}, 1);
+    for (const double x : {-33.0, -7.3, 0.0, 21.9, 33.0}) {
+      EXPECT_LT(axis_facing_share(world, {x, 0.0, 1.5}), 0.005) << "round " << round << " at x = " << x;
+    }
+  }
+}
+
+TEST(Tunnel, RibsFaceAlongIt) {
+  for (const double round : {0.0, 1.0}) {
+    const World world = make_world("tunnel", {{"round_section", round}, {"rib_spacing_m", 5}}, 1);
+    EXPECT_GT(axis_facing_share(world, {0.0, 0.0, 1.5}), 0.02) << "round " << round;
+  }
+}
+
+// The ends are out of a 100 m lidar's reach over the whole drive, and there is nothing beyond them.
+TEST(Tunnel, IsOpenAtFarEnds) {
+  const World world = make_world("tunnel", {}, 1);
+  for (const Eigen::Vector3d& waypoint : route_of("tunnel").waypoints) EXPECT_LE(std::abs(waypoint.x()) + 100.0, 135.0);
+  for (const double side : {-1.0, 1.0}) {
+    EXPECT_LT(cast(world, {0.0, 0.0, 1.5}, {side, 0.0, 0.0}).range_m, 0.0);
+    EXPECT_LT(cast(world, {side * 140.0, 0.0, 1.5}, -Eigen::Vector3d::UnitZ()).range_m, 0.0);
+  }
+}
+
+TEST(Tunnel, LetsNoRayThroughItsLining) {
+  for (const double round : {0.0, 1.0}) {
+    const World world = make_world("tunnel", {{"round_section", round}}, 3);
+    for (const Eigen::Vector3d& direction : sphere_directions(20000)) {
+      if (std::abs(direction.x()) > 0.99) continue;  // out of the ends
+      EXPECT_GE(cast(world, {1.3, 0.2, 1.4}, direction).range_m, 0.0) << direction.transpose();
+    }
+  }
+}
+
+// Neighbouring sections of wall differ in their looks alone: their faces are one plane to a tenth of a millimetre.
+TEST(Tunnel, SectionsAreFlush) {
+  const World world = make_world("tunnel", {}, 1);
+  std::set<int> sections;
+  for (double x = -50.0; x <= 50.0; x += 0.1) {
+    const Hit hit = cast(world, {x, 0.0, 0.7}, Eigen::Vector3d::UnitY());
+    EXPECT_NEAR(hit.range_m, 2.25, 1e-4);
+    sections.insert(world.material_of(hit.geom));
+  }
+  EXPECT_GE(sections.size(), 5U);
+}
+
+TEST(Hall, DocumentedFlightVolumeIsFree) {
+  for (const std::uint64_t seed : kSeeds) {
+    const World world = make_world("hall", {{"clutter", 1}, {"column_spacing_m", 3}}, seed);
+    for (double x = -16.0; x <= 16.0; x += 2.0) {
+      for (double y = -11.0; y <= 11.0; y += 2.0) {
+        for (double z = 2.2; z <= 10.0; z += 1.3) ASSERT_GT(clearance(world, {x, y, z}), 0.1);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace plumbline

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace plumbline {
+
+/// What the parsed command line asks for; gives the exit code.
+using Action = std::function<int()>;
+
+/// Each adds its verb to the program and sets `chosen` when the command line holds it.
+void add_run_command(CLI::App& app, Action& chosen);
+void add_evaluate_command(CLI::App& app, Action& chosen);
+void add_list_command(CLI::App& app, Action& chosen);
+
+}  // namespace plumbline

@@ -1,0 +1,100 @@
+#include "tools/commands/run.h"
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <thread>
+
+#include "scenarios/session.h"
+#include "tools/commands/command.h"
+#include "tools/exit_code.h"
+#include "tools/interrupt.h"
+#include "tools/output/run_files.h"
+#include "tools/output/summary.h"
+#include "tools/progress_line.h"
+
+namespace plumbline {
+namespace {
+
+constexpr int kMaxThreads = 1024;
+
+Scenario load(const RunArguments& arguments) {
+  std::vector<std::string> overrides = arguments.overrides;
+  if (!arguments.estimator.empty()) overrides.push_back("estimator.name=" + arguments.estimator);
+  const Scenario scenario = load_scenario(arguments.scenario, overrides, arguments.seed);
+  require_known_expectations(scenario);
+  return scenario;
+}
+
+std::filesystem::path output_of(const RunArguments& arguments, const Scenario& scenario) {
+  if (!arguments.out.empty()) return arguments.out;
+  return std::filesystem::path("out") / (scenario.name + "-" + std::to_string(scenario.seed));
+}
+
+int threads_of(const RunArguments& arguments) {
+  if (arguments.threads > 0) return arguments.threads;
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+/// A fault of ours ends the run, not its record: the directory says what happened.
+RunRecord simulate(const Scenario& scenario, const World& world, const RayScene& rays, int threads) {
+  ProgressLine line(scenario.name);
+  SessionOptions options;
+  options.threads = threads;
+  options.progress = [&](double share) {
+    line.update(share);
+    return !interrupted();
+  };
+  try {
+    return run_session(scenario, world, rays, options);
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {
+    RunRecord record;
+    record.fault = error.what();
+    return record;
+  }
+}
+
+int exit_code_of(const Verdict& verdict) { return interrupted() ? kExitInterrupted : verdict.exit_code(); }
+
+}  // namespace
+
+int run_scenario(const RunArguments& arguments) {
+  const Scenario scenario = load(arguments);
+  RunDirectory directory(output_of(arguments, scenario));
+  const World world = make_world(scenario);
+  const RayScene rays(world);
+  const int threads = threads_of(arguments);
+  directory.open();
+  catch_interrupts();
+  const RunRecord record = simulate(scenario, world, rays, threads);
+  const JudgedRun run = write_run(
+      directory, scenario, record,
+      [&](const Eigen::Vector3d& point) { return rays.distance_to_surface(point, kMapErrorLimit); },
+      make_provenance(scenario, threads));
+
+  std::cout << scenario.name << ", seed " << scenario.seed << ", " << scenario.estimator_name << ": "
+            << to_string(run.verdict.status) << "\n"
+            << run_summary(record, run.figures, run.verdict) << "  report      "
+            << (directory.target() / "report.html").string() << std::endl;
+  return exit_code_of(run.verdict);
+}
+
+void add_run_command(CLI::App& app, Action& chosen) {
+  const auto arguments = std::make_shared<RunArguments>();
+  CLI::App* run = app.add_subcommand("run", "Simulate a scenario, drive the estimator through it and judge what it said");
+  run->add_option("SCENARIO", arguments->scenario, "scenario file")->required();
+  run->add_option("--set", arguments->overrides, "KEY=VALUE: sets a key of the scenario, such as motion.speed_factor=2")
+      ->expected(1)
+      ->take_all()
+      ->allow_extra_args(false);
+  run->add_option("--seed", arguments->seed, "instead of the scenario's");
+  run->add_option("--estimator", arguments->estimator, "instead of the scenario's; see `plumbline list estimators`");
+  run->add_option("--out", arguments->out, "directory for the results; out/NAME-SEED by default");
+  run->add_option("--threads", arguments->threads, "all of the machine by default; the results are the same")
+      ->check(CLI::Range(1, kMaxThreads));
+  run->callback([arguments, &chosen] { chosen = [arguments] { return run_scenario(*arguments); }; });
+}
+
+}  // namespace plumbline
