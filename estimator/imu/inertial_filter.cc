@@ -1,6 +1,7 @@
 #include "estimator/imu/inertial_filter.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -15,9 +16,18 @@ constexpr double kDensityMargin = 1.5;
 
 double squared(double x) { return x * x; }
 
+/// Forced 6-DOF knows no conditioning: its solution replaces the prediction along every direction (thesis 5.7 with all
+/// coefficients one). Directions below the middle of the spectrum are taken as sure as the middle.
+Eigen::MatrixXd lifted_to_the_middle(const Eigen::MatrixXd& information) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(information);
+  const double middle = eigen.eigenvalues()[eigen.eigenvalues().size() / 2];
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(middle).asDiagonal() * eigen.eigenvectors().transpose();
+}
+
 }  // namespace
 
-InertialFilter::InertialFilter(const InitialState& start, const ImuNoise& noise) : state_(start.state), noise_(noise) {
+InertialFilter::InertialFilter(const InitialState& start, const ImuNoise& noise, bool remapping)
+    : state_(start.state), noise_(noise), remapping_(remapping) {
   covariance_.block<3, 3>(kVelocity, kVelocity).diagonal().setConstant(squared(start.velocity_sigma));
   covariance_.block<3, 3>(kGyroBias, kGyroBias).diagonal().setConstant(squared(start.gyro_bias_sigma));
   // The world's z axis is where the mean force pointed. Where an accelerometer bias tilted it, gravity leans the other
@@ -76,6 +86,7 @@ void InertialFilter::predict(const InertialSegment& segment) {
   add_noise(kVelocity, kDensityMargin * noise_.accel_density);
   add_noise(kGyroBias, noise_.gyro_random_walk);
   add_noise(kAccelBias, noise_.accel_random_walk);
+  symmetrize();
   state_ = next;
 }
 
@@ -112,7 +123,8 @@ void InertialFilter::update(const SolveResult& solved, const Pose& predicted, co
   const Eigen::LDLT<Eigen::MatrixXd> factor(information);
   if (factor.info() != Eigen::Success || !factor.isPositive()) return;
   const Eigen::VectorXd measured = -factor.solve(directions.transpose() * solved.gradient);
-  const Eigen::MatrixXd noise = inflation * factor.solve(Eigen::MatrixXd::Identity(n, n));
+  const Eigen::MatrixXd believed = remapping_ ? information : lifted_to_the_middle(information);
+  const Eigen::MatrixXd noise = inflation * believed.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
   const Eigen::VectorXd innovation = measured - directions.transpose() * solved.pose.local(predicted);
 
   const Eigen::MatrixXd h = directions.transpose() * d_pose_d_error;
@@ -124,8 +136,13 @@ void InertialFilter::update(const SolveResult& solved, const Pose& predicted, co
   // Joseph's form keeps the covariance symmetric and positive.
   const Covariance kept = Covariance::Identity() - gain * h;
   covariance_ = (kept * covariance_ * kept.transpose() + gain * noise * gain.transpose()).eval();
+  symmetrize();
   apply(correction);
 }
+
+/// Rounding's antisymmetric part would grow with the absolute pose's covariance and swamp the key-frame motion's, which
+/// is a small difference of large blocks.
+void InertialFilter::symmetrize() { covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval(); }
 
 void InertialFilter::apply(const ErrorState& correction) {
   state_.world_from_body = state_.world_from_body.retract(correction.segment<6>(kAttitude));

@@ -27,7 +27,8 @@ class InertialFilter {
   using Covariance = Eigen::Matrix<double, kSize, kSize>;
   using ErrorState = Eigen::Matrix<double, kSize, 1>;
 
-  InertialFilter(const InitialState& start, const ImuNoise& noise);
+  /// @param remapping  false: a module's solution counts in all directions alike, however little its data say of one
+  InertialFilter(const InitialState& start, const ImuNoise& noise, bool remapping);
 
   /// Mechanises over a segment that starts at the state's stamp, and spreads the covariance.
   void predict(const InertialSegment& segment);
@@ -53,10 +54,12 @@ class InertialFilter {
   Jacobian keyframe_motion_jacobian() const;
   void update(const SolveResult& solved, const Pose& predicted, const Jacobian& d_pose_d_error, double inflation);
   void apply(const ErrorState& correction);
+  void symmetrize();
 
   NavigationState state_;
   Pose world_from_keyframe_;
   ImuNoise noise_;
+  bool remapping_ = true;
   Covariance covariance_ = Covariance::Zero();
 };
 

@@ -96,7 +96,7 @@ void Vloam::add(const ImuSample& received) {
 void Vloam::start_with(const InitialState& start, const ImuSample& sample) {
   InitialState initial = start;
   if (!config_.imu_enabled) initial.state.accel_bias = Eigen::Vector3d(0.0, 0.0, -kStandardGravity);
-  filter_.emplace(initial, calibration_.imu);
+  filter_.emplace(initial, calibration_.imu, config_.remapping);
   track_.push(sample.stamp_ns, initial.state.world_from_body);
   // What was measured before the start has no pose to stand on.
   while (!waiting_.empty() && waiting_.begin()->first <= sample.stamp_ns) {

@@ -1,0 +1,32 @@
+#include <gtest/gtest.h>
+#include <pcl/io/ply_io.h>
+#include <pcl/point_types.h>
+
+#include <filesystem>
+
+#include "estimator/estimator.h"
+
+namespace plumbline {
+namespace {
+
+std::size_t points_read_back(const std::vector<MapPoint>& points) {
+  const auto path = std::filesystem::path(::testing::TempDir()) / "plumbline_map_export_test.ply";
+  write_ply(path.string(), points);
+  pcl::PointCloud<pcl::PointXYZI> cloud;
+  EXPECT_GE(pcl::io::loadPLYFile(path.string(), cloud), 0);
+  std::filesystem::remove(path);
+  return cloud.size();
+}
+
+TEST(MapExport, WritesWhatPclReads) {
+  EXPECT_EQ(points_read_back({{{1.0F, 2.0F, 3.0F}, 0.5F}, {{-1.0F, 0.0F, 0.25F}, 0.1F}}), 2u);
+}
+
+TEST(MapExport, WritesAMapWithoutPoints) { EXPECT_EQ(points_read_back({}), 0u); }
+
+TEST(MapExport, SaysWhichFileItCannotWrite) {
+  EXPECT_THROW(write_ply("no/such/folder/map.ply", {}), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace plumbline
