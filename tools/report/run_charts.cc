@@ -15,6 +15,8 @@ namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
+// Eigenvalues below this say the same as this one, and would squeeze the rest of their chart.
+constexpr double kLeastEigenvalue = 1e-2;
 // A status lasts until the module's next solve, but no longer than this: silence is shown as such.
 constexpr double kLongestStatus = 0.5;  // [s]
 constexpr double kSmallHeight = 118.0;
@@ -58,6 +60,11 @@ StripRow status_row(const std::string& label, const std::vector<ModuleHealth>& r
     strip.spans.push_back({from, std::min(next, from + kLongestStatus), status_class(rows[i].mode)});
   }
   return strip;
+}
+
+/// Zeros break the line: a module without data has no spectrum.
+double shown_eigenvalue(const ModuleHealth& row, int i) {
+  return row.eigenvalues[5] > 0.0 ? std::max(row.eigenvalues[i], kLeastEigenvalue) : kGap;
 }
 
 /// One axis of the corrections, in the unit that the chart shows.
@@ -123,13 +130,13 @@ std::string eigenvalue_chart(const RunRecord& record, Module module, const std::
   chart.height = 240.0;
   for (int i = 0; i < 6; ++i) {
     ChartSeries all{i == 0 ? "λ₁ … λ₆" : "", "c0", times, {}};
-    for (const ModuleHealth& row : rows) all.y.push_back(row.eigenvalues[i]);
+    for (const ModuleHealth& row : rows) all.y.push_back(shown_eigenvalue(row, i));
     chart.series.push_back(std::move(all));
   }
   for (int i = 0; i < 6; ++i) {
     ChartSeries degenerate{i == 0 ? "degenerate" : "", "warn", times, {}};
     for (const ModuleHealth& row : rows) {
-      degenerate.y.push_back(i < 6 - row.well_conditioned ? row.eigenvalues[i] : kGap);
+      degenerate.y.push_back(i < 6 - row.well_conditioned ? shown_eigenvalue(row, i) : kGap);
     }
     chart.series.push_back(std::move(degenerate));
   }
