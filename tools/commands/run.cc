@@ -93,7 +93,8 @@ int run_scenario(const RunArguments& arguments) {
 
 void add_run_command(CLI::App& app, Action& chosen) {
   const auto arguments = std::make_shared<RunArguments>();
-  CLI::App* run = app.add_subcommand("run", "Simulate a scenario, drive the estimator through it and judge what it said");
+  CLI::App* run =
+      app.add_subcommand("run", "Simulate a scenario, drive the estimator through it and judge what it said");
   run->add_option("SCENARIO", arguments->scenario, "scenario file")->required();
   run->add_option("--set", arguments->overrides, "KEY=VALUE: sets a key of the scenario, such as motion.speed_factor=2")
       ->expected(1)

@@ -13,10 +13,10 @@
 namespace plumbline {
 namespace {
 
-constexpr double kWidth = 1000.0;   // of the drawing; also of the raster, in pixels
+constexpr double kWidth = 1000.0;  // of the drawing; also of the raster, in pixels
 constexpr double kLeastHeight = 90.0;
 constexpr double kMostHeight = 900.0;
-constexpr double kMargin = 0.04;    // of the extent, on each side
+constexpr double kMargin = 0.04;  // of the extent, on each side
 constexpr double kScaleBarRoom = 40.0;
 constexpr std::size_t kMaxPathPoints = 1500;
 // Stray returns far away must not shrink the rest: so large a share of the points is left outside on each side.
@@ -136,7 +136,7 @@ std::string raster(const std::vector<Eigen::Vector3d>& map, const Axes& axes, co
   return png_data_address(png);
 }
 
-std::string path_of(const std::vector<PosePair>& pairs, const Pose PosePair::* track, const Axes& axes,
+std::string path_of(const std::vector<PosePair>& pairs, const Pose PosePair::*track, const Axes& axes,
                     const Frame& frame, const std::string& css_class) {
   const std::size_t stride = std::max<std::size_t>(1, (pairs.size() + kMaxPathPoints - 1) / kMaxPathPoints);
   std::string path = "<path class=\"line " + css_class + "\" d=\"";

@@ -45,9 +45,12 @@ std::vector<double> times_of(const std::vector<ModuleHealth>& rows, std::int64_t
 
 std::string status_class(ModuleMode mode) {
   switch (mode) {
-    case ModuleMode::kSolved: return "solved";
-    case ModuleMode::kPartial: return "partial";
-    case ModuleMode::kBypassed: break;
+    case ModuleMode::kSolved:
+      return "solved";
+    case ModuleMode::kPartial:
+      return "partial";
+    case ModuleMode::kBypassed:
+      break;
   }
   return "bypassed";
 }
@@ -114,7 +117,8 @@ std::string error_charts(const RunRecord& record, const TrajectoryFigures& figur
     position.emplace_back(error.tail<3>());
   }
   LineChart position_chart = component_chart("Position error", "m", times, position, {"forward", "left", "up"}, true);
-  LineChart attitude_chart = component_chart("Attitude error", "deg", times, attitude_deg, {"roll", "pitch", "yaw"}, false);
+  LineChart attitude_chart =
+      component_chart("Attitude error", "deg", times, attitude_deg, {"roll", "pitch", "yaw"}, false);
   position_chart.x = attitude_chart.x = time_range(record);
   return line_chart(position_chart) + line_chart(attitude_chart);
 }
@@ -147,8 +151,8 @@ std::string correction_charts(const RunRecord& record) {
   const std::vector<ModuleHealth> lidar = solves_of(record, Module::kLidar);
   const std::vector<ModuleHealth> camera = solves_of(record, Module::kVision);
   const std::string strips =
-      strip_chart(time_range(record), {status_row("camera", camera, start_of(record)),
-                                       status_row("lidar", lidar, start_of(record))}) +
+      strip_chart(time_range(record),
+                  {status_row("camera", camera, start_of(record)), status_row("lidar", lidar, start_of(record))}) +
       legend({{"solved", "solved"}, {"partial", "partial"}, {"bypassed", "by-passed"}, {"nothing", "no message"}});
   std::string html;
   for (const int first : {0, 3}) {
