@@ -7,7 +7,7 @@ enum ExitCode : int {
   kExitDone = 0,
   kExitCheckFailed = 1,  ///< an `expect:`, a regression
   kExitBadInput = 2,
-  kExitFault = 3,        ///< ours
+  kExitFault = 3,  ///< ours
   kExitInterrupted = 130,
 };
 

@@ -38,8 +38,8 @@ double seconds_since_process_start() {
   const double since_start = static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec) - *start;
   // A container's clock may count from another boot than its /proc; loading never takes minutes.
   constexpr double kLongestLoading = 60.0;
-  const bool plausible = since_start >= since_initialised.count() - 0.02 &&
-                         since_start < since_initialised.count() + kLongestLoading;
+  const bool plausible =
+      since_start >= since_initialised.count() - 0.02 && since_start < since_initialised.count() + kLongestLoading;
   return plausible ? since_start : since_initialised.count();
 }
 

@@ -78,8 +78,8 @@ std::vector<MapPoint> corridor_points(RandomStream& noise) {
   std::vector<MapPoint> points;
   for (double time_s = 0.0; time_s < kDuration; time_s += 0.002) {
     const Pose world_from_body = estimated_pose(time_s);
-    for (const Eigen::Vector3d& in_body : {Eigen::Vector3d(0.0, 2.0, 1.0), Eigen::Vector3d(0.0, -2.0, 1.0),
-                                          Eigen::Vector3d(0.0, 0.5, -1.5)}) {
+    for (const Eigen::Vector3d& in_body :
+         {Eigen::Vector3d(0.0, 2.0, 1.0), Eigen::Vector3d(0.0, -2.0, 1.0), Eigen::Vector3d(0.0, 0.5, -1.5)}) {
       const Eigen::Vector3d spread(0.02 * noise.gaussian(), 0.02 * noise.gaussian(), 0.6 * noise.gaussian());
       points.push_back({(world_from_body * (in_body + spread)).cast<float>(), 0.4F});
     }

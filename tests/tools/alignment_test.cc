@@ -17,7 +17,8 @@ Pose rest_then_straight(double time_s) {
 }
 
 Pose helix(double time_s) {
-  return {exp_so3({0.0, 0.0, 0.5 * time_s}), {4.0 * std::cos(0.5 * time_s), 4.0 * std::sin(0.5 * time_s), 0.3 * time_s}};
+  return {exp_so3({0.0, 0.0, 0.5 * time_s}),
+          {4.0 * std::cos(0.5 * time_s), 4.0 * std::sin(0.5 * time_s), 0.3 * time_s}};
 }
 
 /// What an estimator that is right but for its frame would have said.

@@ -38,9 +38,10 @@ TEST(Progress, IsTheEstimatesScale) {
 TEST(Progress, WorstWindowShowsAFreezeThatTheWholeHides) {
   const auto truth = poses_at_200_hz(42.0, straight);
   const auto figures = trajectory_figures(truth, poses_at_200_hz(42.0, [](double time_s) {
-    const double frozen = std::clamp(time_s - 20.0, 0.0, 6.0);  // for 6 s, then a jump that makes up for it
-    return scaled(time_s < 26.0 ? time_s - frozen : time_s, 1.0);
-  }));
+                                            const double frozen = std::clamp(
+                                                time_s - 20.0, 0.0, 6.0);  // for 6 s, then a jump that makes up for it
+                                            return scaled(time_s < 26.0 ? time_s - frozen : time_s, 1.0);
+                                          }));
   EXPECT_NEAR(figures.progress.whole.value(), 1.0, 1e-9);
   EXPECT_LT(std::min(figures.progress.worst_5s.value(), 2.0 - figures.progress.worst_5s.value()), 1e-9);
 }
@@ -68,7 +69,7 @@ TEST(Drift, IsTheErrorAtTheTruthsEndOverTheDistance) {
 }
 
 TEST(Drift, HoldsAnEstimateThatStopsEarly) {
-  const auto truth = poses_at_200_hz(12.0, straight);  // 20 m
+  const auto truth = poses_at_200_hz(12.0, straight);                                     // 20 m
   const auto figures = trajectory_figures(truth, {truth.begin(), truth.begin() + 1401});  // 10 m
   EXPECT_NEAR(figures.drift_percent.value(), 50.0, 1e-9);
   EXPECT_NEAR(figures.progress.whole.value(), 0.5, 1e-9);
@@ -90,8 +91,7 @@ TEST(Kitti, UsesTheBenchmarksLengthsOnALongPath) {
   };
   const auto truth = poses_at_200_hz(45.0, [&](double t) { return fast(t, 0.0); });  // 900 m
   const double deg_per_m = 0.001;
-  const auto estimate =
-      poses_at_200_hz(45.0, [&](double t) { return fast(t, deg_per_m * std::numbers::pi / 180.0); });
+  const auto estimate = poses_at_200_hz(45.0, [&](double t) { return fast(t, deg_per_m * std::numbers::pi / 180.0); });
   const auto figures = trajectory_figures(truth, estimate);
   EXPECT_FALSE(figures.kitti.scaled);
   EXPECT_NEAR(figures.kitti.rotation_deg_per_m.value(), deg_per_m, 1e-5);

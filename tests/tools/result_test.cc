@@ -22,11 +22,29 @@ nlohmann::json result_of(const RunRecord& record) {
 }
 
 void expect_design_keys(const nlohmann::json& result) {
-  for (const char* key :
-       {"schema_version", "status", "distance_m", "duration_s", "drift_percent", "progress_ratio",
-        "progress_ratio_worst_5s", "kitti_translation_percent", "kitti_rotation_deg_per_m", "kitti_scaled", "ape_rmse_m",
-        "ape_rmse_deg", "rpe_rmse_m", "rpe_rmse_deg", "map_rmse_m", "map_p95_m", "nees_mean", "real_time_factor",
-        "estimator_real_time_factor", "seed", "scenario", "estimator", "provenance"}) {
+  for (const char* key : {"schema_version",
+                          "status",
+                          "distance_m",
+                          "duration_s",
+                          "drift_percent",
+                          "progress_ratio",
+                          "progress_ratio_worst_5s",
+                          "kitti_translation_percent",
+                          "kitti_rotation_deg_per_m",
+                          "kitti_scaled",
+                          "ape_rmse_m",
+                          "ape_rmse_deg",
+                          "rpe_rmse_m",
+                          "rpe_rmse_deg",
+                          "map_rmse_m",
+                          "map_p95_m",
+                          "nees_mean",
+                          "real_time_factor",
+                          "estimator_real_time_factor",
+                          "seed",
+                          "scenario",
+                          "estimator",
+                          "provenance"}) {
     EXPECT_TRUE(result.contains(key)) << key;
   }
   for (const char* sensor : {"imu", "camera", "lidar"}) {
@@ -97,8 +115,9 @@ TEST(DegeneracyCsv, HasTheColumnsThatReadersRelyOn) {
   EXPECT_EQ(header.substr(0, 70), "stamp_ns,module,mode,lambda_1,lambda_2,lambda_3,lambda_4,lambda_5,lamb");
   EXPECT_NE(header.find("lambda_6,v_1_1,v_1_2,"), std::string::npos);
   EXPECT_TRUE(header.ends_with("v_6_5,v_6_6,well_conditioned"));
-  EXPECT_EQ(row, "100000000,lidar,partial,1,2,3,4,5,6,1,0,0,0,0,0,0,1,0.25,0,0,0,0,0,1,0,0,0,0,0,0,1,0,0,0,0,0,0,1,0,"
-                 "0,0,0,0,0,1,5");
+  EXPECT_EQ(row,
+            "100000000,lidar,partial,1,2,3,4,5,6,1,0,0,0,0,0,0,1,0.25,0,0,0,0,0,1,0,0,0,0,0,0,1,0,0,0,0,0,0,1,0,"
+            "0,0,0,0,0,1,5");
 }
 
 }  // namespace

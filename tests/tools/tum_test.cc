@@ -73,7 +73,8 @@ TEST_F(Tum, NamesFileAndLineOfWhatItCannotUse) {
       {std::string("\x01\xff\0 0 0 0 0 0 0 1", 18), "stamp '?\?\?'"},
   };
   for (const auto& [line, complaint] : hostile) {
-    EXPECT_THAT(error_of(good + line + "\n"), ::testing::AllOf(::testing::StartsWith(place), ::testing::HasSubstr(complaint)));
+    EXPECT_THAT(error_of(good + line + "\n"),
+                ::testing::AllOf(::testing::StartsWith(place), ::testing::HasSubstr(complaint)));
   }
 }
 

@@ -35,9 +35,12 @@ void add_evaluate_command(CLI::App& app, Action& chosen) {
   CLI::App* evaluate = app.add_subcommand("evaluate", "Compare an estimated trajectory with the true one");
   evaluate->add_option("GROUND_TRUTH", arguments->ground_truth, "trajectory file")->required();
   evaluate->add_option("ESTIMATE", arguments->estimate, "trajectory file")->required();
-  evaluate->add_option("--format", words->format, "of both files")->check(CLI::IsMember({"tum"}))->capture_default_str();
-  evaluate->add_option("--align", words->alignment,
-                       "of every error; by default the first second for drift and progress, se3 for the absolute error")
+  evaluate->add_option("--format", words->format, "of both files")
+      ->check(CLI::IsMember({"tum"}))
+      ->capture_default_str();
+  evaluate
+      ->add_option("--align", words->alignment,
+                   "of every error; by default the first second for drift and progress, se3 for the absolute error")
       ->check(CLI::IsMember({"none", "origin", "yaw", "se3", "sim3"}));
   evaluate->add_option("--json", arguments->json, "writes the figures, under the keys of result.json");
   evaluate->callback([arguments, words, &chosen] {

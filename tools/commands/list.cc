@@ -71,10 +71,8 @@ void list_scenes() {
   }
 }
 
-const std::map<std::string, void (*)()> kLists = {{"scenarios", list_scenarios},
-                                                  {"sensors", list_sensors},
-                                                  {"estimators", list_estimators},
-                                                  {"scenes", list_scenes}};
+const std::map<std::string, void (*)()> kLists = {
+    {"scenarios", list_scenarios}, {"sensors", list_sensors}, {"estimators", list_estimators}, {"scenes", list_scenes}};
 
 }  // namespace
 
@@ -86,7 +84,7 @@ void add_list_command(CLI::App& app, Action& chosen) {
       ->check(CLI::IsMember({"scenarios", "sensors", "estimators", "scenes"}));
   list->callback([what, &chosen] {
     chosen = [what] {
-      kLists.at(*what)();
+      kLists.at (*what)();
       return static_cast<int>(kExitDone);
     };
   });

@@ -56,6 +56,16 @@ RunRecord simulate(const Scenario& scenario, const World& world, const RayScene&
   }
 }
 
+/// CLI11 wraps negative numbers around when it reads an unsigned one.
+CLI::Validator whole_number() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        const bool digits = text.find_first_not_of("0123456789") == std::string::npos;
+        return digits ? std::string() : "found '" + text + "'; allowed is a whole number from 0";
+      },
+      "WHOLE NUMBER");
+}
+
 int exit_code_of(const Verdict& verdict) { return interrupted() ? kExitInterrupted : verdict.exit_code(); }
 
 }  // namespace
@@ -83,13 +93,14 @@ int run_scenario(const RunArguments& arguments) {
 
 void add_run_command(CLI::App& app, Action& chosen) {
   const auto arguments = std::make_shared<RunArguments>();
-  CLI::App* run = app.add_subcommand("run", "Simulate a scenario, drive the estimator through it and judge what it said");
+  CLI::App* run =
+      app.add_subcommand("run", "Simulate a scenario, drive the estimator through it and judge what it said");
   run->add_option("SCENARIO", arguments->scenario, "scenario file")->required();
   run->add_option("--set", arguments->overrides, "KEY=VALUE: sets a key of the scenario, such as motion.speed_factor=2")
       ->expected(1)
       ->take_all()
       ->allow_extra_args(false);
-  run->add_option("--seed", arguments->seed, "instead of the scenario's");
+  run->add_option("--seed", arguments->seed, "instead of the scenario's")->check(whole_number());
   run->add_option("--estimator", arguments->estimator, "instead of the scenario's; see `plumbline list estimators`");
   run->add_option("--out", arguments->out, "directory for the results; out/NAME-SEED by default");
   run->add_option("--threads", arguments->threads, "all of the machine by default; the results are the same")

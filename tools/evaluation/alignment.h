@@ -23,12 +23,12 @@ enum class AlignmentKind { kNone, kOrigin, kYaw, kSe3, kSim3 };
 std::optional<AlignmentKind> alignment_kind(const std::string& name);
 
 /// Drift's alignment: best fits the first second of poses. The body may rest there, so positions alone would leave the
-/// rotation open: the rotation is the (chordal) mean of truth * estimate^-1, the translation the mean that then remains.
-/// Identity when there are no pairs.
+/// rotation open: the rotation is the (chordal) mean of truth * estimate^-1, the translation the mean that then
+/// remains. Identity when there are no pairs.
 Pose align_first_second(const std::vector<PosePair>& pairs);
 
-/// Over all pairs. `origin` maps the first estimate onto the first truth; `yaw` turns about the vertical only; `se3` and
-/// `sim3` follow Umeyama, PAMI 13(4), 1991, eqs. 38-42, on the positions. Attitudes enter with the weight of 1 % of
+/// Over all pairs. `origin` maps the first estimate onto the first truth; `yaw` turns about the vertical only; `se3`
+/// and `sim3` follow Umeyama, PAMI 13(4), 1991, eqs. 38-42, on the positions. Attitudes enter with the weight of 1 % of
 /// the path's extent, which settles the roll about a straight path and moves nothing else.
 Alignment align(const std::vector<PosePair>& pairs, AlignmentKind kind);
 

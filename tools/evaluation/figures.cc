@@ -133,7 +133,8 @@ std::vector<Figure> figure_list(const RunFigures& figures) {
   list.push_back({"wall_s", finite(figures.wall_s)});
   for (const Module module : kModules) {
     const auto found = figures.modules.find(module);
-    append_module(list, std::string(to_string(module)), found == figures.modules.end() ? ModuleFigures{} : found->second);
+    append_module(list, std::string(to_string(module)),
+                  found == figures.modules.end() ? ModuleFigures{} : found->second);
   }
   for (const Module module : kModules) {
     const auto found = figures.messages.find(module);
@@ -142,8 +143,6 @@ std::vector<Figure> figure_list(const RunFigures& figures) {
   return list;
 }
 
-std::string message_key(Module module) {
-  return module == Module::kVision ? "camera" : std::string(to_string(module));
-}
+std::string message_key(Module module) { return module == Module::kVision ? "camera" : std::string(to_string(module)); }
 
 }  // namespace plumbline

@@ -27,10 +27,11 @@ struct TrajectoryFigures {
   KittiError kitti;
   std::optional<RootMeanSquare> ape;
   std::optional<RootMeanSquare> rpe;
-  std::optional<double> lost_since_s;  ///< since then the position error stays above 1 m + 10 % of the distance travelled
+  std::optional<double>
+      lost_since_s;  ///< since then the position error stays above 1 m + 10 % of the distance travelled
 
-  Alignment drift_alignment;         ///< what drift and everything drawn were aligned by
-  std::vector<PosePair> aligned;     ///< with drift_alignment, to the truth's end
+  Alignment drift_alignment;      ///< what drift and everything drawn were aligned by
+  std::vector<PosePair> aligned;  ///< with drift_alignment, to the truth's end
 };
 
 /// @param alignment  of every error; without one drift, progress and the like follow the first second, ape follows se3

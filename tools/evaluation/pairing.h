@@ -19,8 +19,8 @@ struct PosePair {
 /// The pose at a time, interpolated; outside the track the nearest end's pose is held. `poses` must not be empty.
 Pose pose_at(const StampedPoses& poses, std::int64_t stamp_ns);
 
-/// Pairs two tracks at the stamps of the sparser one. The denser is interpolated where it has poses at most 0.2 s apart on
-/// both sides, else its nearest pose within 10 ms is taken, else the stamp is left out.
+/// Pairs two tracks at the stamps of the sparser one. The denser is interpolated where it has poses at most 0.2 s apart
+/// on both sides, else its nearest pose within 10 ms is taken, else the stamp is left out.
 std::vector<PosePair> pair_poses(const StampedPoses& truth, const StampedPoses& estimate);
 
 /// As pair_poses, then goes on to the truth's end with the estimate held at its last pose: the figures must see an

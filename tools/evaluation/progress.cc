@@ -6,7 +6,7 @@ namespace plumbline {
 namespace {
 
 constexpr std::int64_t kWindowNs = 5'000'000'000;
-constexpr double kLeastTravel = 1.0;    // [m] in a window
+constexpr double kLeastTravel = 1.0;     // [m] in a window
 constexpr double kLeastDistance = 1e-3;  // [m] of the whole run
 
 /// Running sums up to each pair, so that any window is a difference.

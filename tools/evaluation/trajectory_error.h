@@ -5,8 +5,8 @@
 
 #include "tools/evaluation/pairing.h"
 
-/// Errors of an estimated trajectory. Every function takes pairs in time order, the estimate already aligned where it says
-/// so, and gives nothing rather than a number without meaning.
+/// Errors of an estimated trajectory. Every function takes pairs in time order, the estimate already aligned where it
+/// says so, and gives nothing rather than a number without meaning.
 namespace plumbline {
 
 /// Length of the path through the poses [m].

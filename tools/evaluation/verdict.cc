@@ -42,10 +42,14 @@ Status status_of(const RunRecord& record, const RunFigures& figures, bool bounds
 
 std::string to_string(Status status) {
   switch (status) {
-    case Status::kOk: return "ok";
-    case Status::kFailed: return "failed";
-    case Status::kLost: return "lost";
-    case Status::kError: return "error";
+    case Status::kOk:
+      return "ok";
+    case Status::kFailed:
+      return "failed";
+    case Status::kLost:
+      return "lost";
+    case Status::kError:
+      return "error";
   }
   return "error";
 }
@@ -64,7 +68,8 @@ void require_known_expectations(const Scenario& scenario) {
     }
   }
   const auto& expected = scenario.expect_status;
-  if (expected && std::none_of(kStatuses.begin(), kStatuses.end(), [&](Status s) { return to_string(s) == *expected; })) {
+  if (expected &&
+      std::none_of(kStatuses.begin(), kStatuses.end(), [&](Status s) { return to_string(s) == *expected; })) {
     throw InputError(scenario.path.string() + ": expect.status: found '" + *expected +
                      "'; allowed are ok, failed, lost, error");
   }

@@ -32,8 +32,8 @@ struct Verdict {
 /// @throws InputError naming file and key if `expect:` names no figure of result.json or no status
 void require_known_expectations(const Scenario& scenario);
 
-/// error (a fault), else lost (the estimator says so, or its error outgrew the distance), else failed (an `expect:`), else
-/// ok. A run that was expected to be lost, and is, holds.
+/// error (a fault), else lost (the estimator says so, or its error outgrew the distance), else failed (an `expect:`),
+/// else ok. A run that was expected to be lost, and is, holds.
 Verdict judge(const Scenario& scenario, const RunRecord& record, const RunFigures& figures);
 
 /// "drift_percent = 0.72, expected at most 0.5"

@@ -34,7 +34,8 @@ void append_general(std::string& text, double value, int digits) {
 void append_seconds(std::string& text, std::int64_t stamp_ns) {
   constexpr std::uint64_t kNanosecondsPerSecond = 1'000'000'000;
   if (stamp_ns < 0) text += '-';
-  const auto magnitude = stamp_ns < 0 ? ~static_cast<std::uint64_t>(stamp_ns) + 1 : static_cast<std::uint64_t>(stamp_ns);
+  const auto magnitude =
+      stamp_ns < 0 ? ~static_cast<std::uint64_t>(stamp_ns) + 1 : static_cast<std::uint64_t>(stamp_ns);
   text += std::to_string(magnitude / kNanosecondsPerSecond);
   const std::string fraction = std::to_string(magnitude % kNanosecondsPerSecond);
   text += '.';
@@ -49,6 +50,7 @@ std::string fixed_text(double value, int decimals) {
 }
 
 std::string readable_text(double value) {
+  if (!std::isfinite(value)) return "–";
   const double magnitude = std::abs(value);
   if (magnitude >= 1e6 || (magnitude > 0.0 && magnitude < 1e-4)) {
     std::string text;

@@ -18,7 +18,7 @@ void append_seconds(std::string& text, std::int64_t stamp_ns);
 /// As append_fixed, as a string of its own.
 std::string fixed_text(double value, int decimals);
 
-/// For people: three or so significant digits, without exponents for ordinary sizes.
+/// For people: three or so significant digits, without exponents for ordinary sizes; a dash if it is not finite.
 std::string readable_text(double value);
 
 }  // namespace plumbline

@@ -18,7 +18,7 @@ namespace {
 // Ten hours at 200 Hz are 7 million lines of some 100 bytes.
 constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 30;
 constexpr std::size_t kMaxLineBytes = 1024;
-constexpr double kMaxPosition = 1e8;          // [m], twice around the earth
+constexpr double kMaxPosition = 1e8;                 // [m], twice around the earth
 constexpr std::int64_t kMaxSeconds = 9'000'000'000;  // fits int64 nanoseconds
 constexpr double kQuaternionTolerance = 0.01;
 
@@ -98,7 +98,8 @@ std::optional<std::int64_t> parse_stamp(std::string_view word) {
 
 PoseTrack::Stamped parse_pose(const std::vector<std::string_view>& words, const Place& place) {
   if (words.size() != 8) {
-    place.reject("found " + std::to_string(words.size()) + " values; a pose is 'stamp x y z qx qy qz qw', eight numbers");
+    place.reject("found " + std::to_string(words.size()) +
+                 " values; a pose is 'stamp x y z qx qy qz qw', eight numbers");
   }
   PoseTrack::Stamped stamped;
   const auto stamp_ns = parse_stamp(words[0]);

@@ -5,8 +5,8 @@
 
 namespace plumbline {
 
-/// A directory that appears whole or not at all: files are written into a hidden sibling that takes its place at the end.
-/// A run that was there before, recognised by its result.json, is replaced whole.
+/// A directory that appears whole or not at all: files are written into a hidden sibling that takes its place at the
+/// end. A run that was there before, recognised by its result.json, is replaced whole.
 class RunDirectory {
  public:
   /// Touches nothing on disk.

@@ -16,8 +16,9 @@ struct JudgedRun {
   Verdict verdict;
 };
 
-/// Evaluates and judges a run and puts its directory into place: ground_truth.tum, estimate.tum, map.ply, degeneracy.csv,
-/// timing.csv, scenario.yaml, report.html and, last of all, result.json, whose real_time_factor thus covers the others.
+/// Evaluates and judges a run and puts its directory into place: ground_truth.tum, estimate.tum, map.ply,
+/// degeneracy.csv, timing.csv, scenario.yaml, report.html and, last of all, result.json, whose real_time_factor thus
+/// covers the others.
 /// @param directory  open
 /// @throws std::runtime_error if a file cannot be written; then nothing appears
 JudgedRun write_run(RunDirectory& directory, const Scenario& scenario, const RunRecord& record,

@@ -18,7 +18,8 @@ std::string with_unit(const std::optional<double>& value, const std::string& uni
 }
 
 std::string error_row(const std::string& name, const std::optional<RootMeanSquare>& error) {
-  return row(name, error ? readable_text(error->translation_m) + " m, " + readable_text(error->rotation_deg) + "° rms" : "–");
+  return row(name,
+             error ? readable_text(error->translation_m) + " m, " + readable_text(error->rotation_deg) + "° rms" : "–");
 }
 
 std::string module_row(Module module, const ModuleFigures& figures) {
@@ -49,8 +50,10 @@ std::string problems(const RunRecord& record, const RunFigures& figures, const V
 
 std::string trajectory_summary(const TrajectoryFigures& figures) {
   return row("truth", readable_text(figures.distance_m) + " m in " + readable_text(figures.duration_s) + " s") +
-         row("drift", with_unit(figures.drift_percent, " %") + ", " + with_unit(figures.final_error_m, " m at the end")) +
-         row("progress", with_unit(figures.progress.whole, "") + ", worst 5 s " + with_unit(figures.progress.worst_5s, "")) +
+         row("drift",
+             with_unit(figures.drift_percent, " %") + ", " + with_unit(figures.final_error_m, " m at the end")) +
+         row("progress",
+             with_unit(figures.progress.whole, "") + ", worst 5 s " + with_unit(figures.progress.worst_5s, "")) +
          row("kitti", with_unit(figures.kitti.translation_percent, " %") + ", " +
                           with_unit(figures.kitti.rotation_deg_per_m, " deg/m") +
                           (figures.kitti.scaled ? " (over eighths of the path)" : "")) +

@@ -24,9 +24,12 @@ std::string png_of(const CameraFrame& frame) {
 
 std::string depth_class(const TrackedFeature& feature) {
   switch (feature.depth) {
-    case TrackedFeature::Depth::kLidar: return "depth-lidar";
-    case TrackedFeature::Depth::kTriangulated: return "depth-triangulated";
-    case TrackedFeature::Depth::kNone: break;
+    case TrackedFeature::Depth::kLidar:
+      return "depth-lidar";
+    case TrackedFeature::Depth::kTriangulated:
+      return "depth-triangulated";
+    case TrackedFeature::Depth::kNone:
+      break;
   }
   return "depth-none";
 }
@@ -55,7 +58,8 @@ std::string camera_picture(const FrameSnapshot& snapshot, std::int64_t start_ns)
   std::string html = "<figure class=\"camera\">" + svg_open(snapshot.frame.width, snapshot.frame.height, caption);
   html += "<image width=\"" + std::to_string(snapshot.frame.width) + "\" height=\"" +
           std::to_string(snapshot.frame.height) + "\" href=\"" + picture + "\"/>";
-  for (std::size_t i = 0; i < std::min(snapshot.features.size(), kMaxFeatures); ++i) html += drawn(snapshot.features[i]);
+  for (std::size_t i = 0; i < std::min(snapshot.features.size(), kMaxFeatures); ++i)
+    html += drawn(snapshot.features[i]);
   return html + "</svg><figcaption>" + escape_markup(caption) + "</figcaption></figure>";
 }
 

@@ -13,10 +13,10 @@
 namespace plumbline {
 namespace {
 
-constexpr double kWidth = 1000.0;   // of the drawing; also of the raster, in pixels
+constexpr double kWidth = 1000.0;  // of the drawing; also of the raster, in pixels
 constexpr double kLeastHeight = 90.0;
 constexpr double kMostHeight = 900.0;
-constexpr double kMargin = 0.04;    // of the extent, on each side
+constexpr double kMargin = 0.04;  // of the extent, on each side
 constexpr double kScaleBarRoom = 40.0;
 constexpr std::size_t kMaxPathPoints = 1500;
 // Stray returns far away must not shrink the rest: so large a share of the points is left outside on each side.
@@ -108,15 +108,21 @@ Frame frame_of(Box box) {
   return frame;
 }
 
+/// A sparse map is drawn with larger dots, or nobody would see it.
+int dot_size(std::size_t points) { return points < 30'000 ? 3 : points < 150'000 ? 2 : 1; }
+
 /// Density as opacity of one grey, which serves a light and a dark page alike.
 std::string raster(const std::vector<Eigen::Vector3d>& map, const Axes& axes, const Frame& frame) {
   const int width = static_cast<int>(kWidth);
   const int height = static_cast<int>(std::lround(frame.height));
   cv::Mat counts(height, width, CV_32S, cv::Scalar(0));
+  const int dot = dot_size(map.size());
   for (const Eigen::Vector3d& point : map) {
     const Eigen::Vector2d at = frame(axes(point));
-    if (!(at.x() >= 0.0 && at.x() < width && at.y() >= 0.0 && at.y() < height)) continue;
-    ++counts.at<int>(static_cast<int>(at.y()), static_cast<int>(at.x()));
+    if (!(at.x() >= 0.0 && at.x() <= width - dot && at.y() >= 0.0 && at.y() <= height - dot)) continue;
+    for (int cell = 0; cell < dot * dot; ++cell) {
+      ++counts.at<int>(static_cast<int>(at.y()) + cell / dot, static_cast<int>(at.x()) + cell % dot);
+    }
   }
   cv::Mat picture(height, width, CV_8UC4, cv::Scalar(128, 128, 128, 0));
   for (int y = 0; y < height; ++y) {
@@ -130,7 +136,7 @@ std::string raster(const std::vector<Eigen::Vector3d>& map, const Axes& axes, co
   return png_data_address(png);
 }
 
-std::string path_of(const std::vector<PosePair>& pairs, const Pose PosePair::* track, const Axes& axes,
+std::string path_of(const std::vector<PosePair>& pairs, const Pose PosePair::*track, const Axes& axes,
                     const Frame& frame, const std::string& css_class) {
   const std::size_t stride = std::max<std::size_t>(1, (pairs.size() + kMaxPathPoints - 1) / kMaxPathPoints);
   std::string path = "<path class=\"line " + css_class + "\" d=\"";

@@ -15,6 +15,8 @@ namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
+// Eigenvalues below this say the same as this one, and would squeeze the rest of their chart.
+constexpr double kLeastEigenvalue = 1e-2;
 // A status lasts until the module's next solve, but no longer than this: silence is shown as such.
 constexpr double kLongestStatus = 0.5;  // [s]
 constexpr double kSmallHeight = 118.0;
@@ -43,9 +45,12 @@ std::vector<double> times_of(const std::vector<ModuleHealth>& rows, std::int64_t
 
 std::string status_class(ModuleMode mode) {
   switch (mode) {
-    case ModuleMode::kSolved: return "solved";
-    case ModuleMode::kPartial: return "partial";
-    case ModuleMode::kBypassed: break;
+    case ModuleMode::kSolved:
+      return "solved";
+    case ModuleMode::kPartial:
+      return "partial";
+    case ModuleMode::kBypassed:
+      break;
   }
   return "bypassed";
 }
@@ -58,6 +63,11 @@ StripRow status_row(const std::string& label, const std::vector<ModuleHealth>& r
     strip.spans.push_back({from, std::min(next, from + kLongestStatus), status_class(rows[i].mode)});
   }
   return strip;
+}
+
+/// Zeros break the line: a module without data has no spectrum.
+double shown_eigenvalue(const ModuleHealth& row, int i) {
+  return row.eigenvalues[5] > 0.0 ? std::max(row.eigenvalues[i], kLeastEigenvalue) : kGap;
 }
 
 /// One axis of the corrections, in the unit that the chart shows.
@@ -107,7 +117,8 @@ std::string error_charts(const RunRecord& record, const TrajectoryFigures& figur
     position.emplace_back(error.tail<3>());
   }
   LineChart position_chart = component_chart("Position error", "m", times, position, {"forward", "left", "up"}, true);
-  LineChart attitude_chart = component_chart("Attitude error", "deg", times, attitude_deg, {"roll", "pitch", "yaw"}, false);
+  LineChart attitude_chart =
+      component_chart("Attitude error", "deg", times, attitude_deg, {"roll", "pitch", "yaw"}, false);
   position_chart.x = attitude_chart.x = time_range(record);
   return line_chart(position_chart) + line_chart(attitude_chart);
 }
@@ -123,13 +134,13 @@ std::string eigenvalue_chart(const RunRecord& record, Module module, const std::
   chart.height = 240.0;
   for (int i = 0; i < 6; ++i) {
     ChartSeries all{i == 0 ? "λ₁ … λ₆" : "", "c0", times, {}};
-    for (const ModuleHealth& row : rows) all.y.push_back(row.eigenvalues[i]);
+    for (const ModuleHealth& row : rows) all.y.push_back(shown_eigenvalue(row, i));
     chart.series.push_back(std::move(all));
   }
   for (int i = 0; i < 6; ++i) {
     ChartSeries degenerate{i == 0 ? "degenerate" : "", "warn", times, {}};
     for (const ModuleHealth& row : rows) {
-      degenerate.y.push_back(i < 6 - row.well_conditioned ? row.eigenvalues[i] : kGap);
+      degenerate.y.push_back(i < 6 - row.well_conditioned ? shown_eigenvalue(row, i) : kGap);
     }
     chart.series.push_back(std::move(degenerate));
   }
@@ -140,8 +151,8 @@ std::string correction_charts(const RunRecord& record) {
   const std::vector<ModuleHealth> lidar = solves_of(record, Module::kLidar);
   const std::vector<ModuleHealth> camera = solves_of(record, Module::kVision);
   const std::string strips =
-      strip_chart(time_range(record), {status_row("camera", camera, start_of(record)),
-                                       status_row("lidar", lidar, start_of(record))}) +
+      strip_chart(time_range(record),
+                  {status_row("camera", camera, start_of(record)), status_row("lidar", lidar, start_of(record))}) +
       legend({{"solved", "solved"}, {"partial", "partial"}, {"bypassed", "by-passed"}, {"nothing", "no message"}});
   std::string html;
   for (const int first : {0, 3}) {

@@ -38,8 +38,8 @@ std::string tiles(const RunFigures& figures) {
   return "<div class=\"tiles\">" + tile("Drift", t.drift_percent, "%") + tile("Progress", t.progress.whole, "× true") +
          tile("Progress, worst 5 s", t.progress.worst_5s, "× true") + tile("Position error, rms", metres, "m") +
          tile("Attitude error, rms", degrees, "°") + tile("Map error, rms", figures.map.rmse_m, "m") +
-         tile("Scan matching degenerate", degenerate, "%") + tile("Distance", t.distance_m, "m") + tile("Duration", t.duration_s, "s") +
-         tile("Speed", figures.real_time_factor, "× real time") + "</div>";
+         tile("Scan matching degenerate", degenerate, "%") + tile("Distance", t.distance_m, "m") +
+         tile("Duration", t.duration_s, "s") + tile("Speed", figures.real_time_factor, "× real time") + "</div>";
 }
 
 std::string list_item(bool holds, const std::string& text) {
@@ -52,8 +52,8 @@ std::string checks(const RunReport& report) {
   if (!report.record.fault.empty()) items += list_item(false, "The run ended early: " + report.record.fault);
   if (report.record.estimator_lost) items += list_item(false, "The estimator says that it is lost");
   if (const auto since = report.figures.trajectory.lost_since_s) {
-    items += list_item(false, "Since " + readable_text(*since) +
-                                  " s the position error exceeds 1 m + 10 % of the distance travelled");
+    items += list_item(
+        false, "Since " + readable_text(*since) + " s the position error exceeds 1 m + 10 % of the distance travelled");
   }
   for (const Check& check : report.verdict.checks) items += list_item(check.holds, describe(check));
   if (const auto& expected = report.verdict.expected_status) {
@@ -98,7 +98,8 @@ std::string camera_section(const RunRecord& record) {
 
 std::string message_table(const RunFigures& figures) {
   std::string html =
-      "<div class=\"card scroll\"><table><tr><th>messages</th><th class=\"number\">produced</th><th class=\"number\">used"
+      "<div class=\"card scroll\"><table><tr><th>messages</th><th class=\"number\">produced</th><th "
+      "class=\"number\">used"
       "</th><th>dropped</th></tr>";
   for (const auto& [module, tally] : figures.messages) {
     std::string dropped;
@@ -120,7 +121,7 @@ std::string cost_section(const RunFigures& figures) {
 std::string figure_table(const RunFigures& figures) {
   std::string rows;
   for (const Figure& figure : figure_list(figures)) {
-    const std::string value = !figure.value       ? "null"
+    const std::string value = !figure.value     ? "null"
                               : figure.is_count ? fixed_text(*figure.value, 0)
                                                 : readable_text(*figure.value);
     rows += "<tr><td>" + escape_markup(figure.key) + "</td><td class=\"number\">" + value + "</td></tr>";
@@ -144,10 +145,11 @@ std::string report_html(const RunReport& report) {
   const RunRecord& record = report.record;
   return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
          "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>" +
-         escape_markup(report.scenario.name) + " – Plumbline</title><style>" + kPageStyle + "</style></head><body><main>" +
-         title_block(report) + tiles(report.figures) + checks(report) + map_section(report) +
-         heading("Error over time", "In the true body's axes: forward, left, up.") + "<div class=\"pair\">" +
-         error_charts(record, report.figures.trajectory) + "</div>" + degeneracy_section(record) +
+         escape_markup(report.scenario.name) + " – Plumbline</title><style>" + kPageStyle +
+         "</style></head><body><main>" + title_block(report) + tiles(report.figures) + checks(report) +
+         map_section(report) + heading("Error over time", "In the true body's axes: forward, left, up.") +
+         "<div class=\"pair\">" + error_charts(record, report.figures.trajectory) + "</div>" +
+         degeneracy_section(record) +
          heading("Scan matching's corrections", "What each registration changed of the prediction it started from.") +
          "<div class=\"pair\">" + correction_charts(record) + "</div>" + camera_section(record) +
          cost_section(report.figures) + figure_table(report.figures) + provenance_section(report) +

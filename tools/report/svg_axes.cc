@@ -21,8 +21,8 @@ std::string svg_line(double x1, double y1, double x2, double y2, const std::stri
 }
 
 std::string svg_open(double width, double height, const std::string& description) {
-  return "<svg role=\"img\" aria-label=\"" + escape_markup(description) + "\" viewBox=\"0 0 " + coordinate(width) + " " +
-         coordinate(height) + "\">";
+  return "<svg role=\"img\" aria-label=\"" + escape_markup(description) + "\" viewBox=\"0 0 " + coordinate(width) +
+         " " + coordinate(height) + "\">";
 }
 
 std::string x_axis(const ChartRange& range, double top, double bottom, const std::string& label) {

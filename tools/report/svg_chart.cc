@@ -75,7 +75,8 @@ std::string y_axis(const ChartRange& range, double bottom, bool logarithmic) {
   std::string svg;
   for (const double tick : ticks) {
     svg += svg_line(kChartLeft, scale(tick), kChartRight, scale(tick), tick == 0.0 && !logarithmic ? "axis" : "grid");
-    svg += svg_text(kChartLeft - 6.0, scale(tick) + 5.0, "end", logarithmic ? power_of_ten(tick) : tick_text(tick, step));
+    svg +=
+        svg_text(kChartLeft - 6.0, scale(tick) + 5.0, "end", logarithmic ? power_of_ten(tick) : tick_text(tick, step));
   }
   return svg;
 }
