@@ -1,14 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 
 #include "scenarios/run_record.h"
 
 namespace plumbline {
 
-/// Hands messages to an estimator and keeps what comes of it. After a fault, such as an exception of
-/// the estimator, no message is delivered; counts and map are still asked for.
+/// Hands messages to an estimator and keeps what comes of it. An estimator that throws is not called again; what it
+/// threw becomes the record's fault.
 class Recorder {
  public:
   /// The estimator must outlive the recorder.
@@ -20,7 +19,9 @@ class Recorder {
   void add_truth(std::int64_t stamp_ns, const Pose& world_from_body);
   void add_sensors_wall(double wall_s) { record_.sensors_wall_s += wall_s; }
 
+  /// Ends the run before its time.
   void set_fault(const std::string& fault) { record_.fault = fault; }
+
   bool faulted() const { return !record_.fault.empty(); }
   /// The record, completed by the estimator's counts and map. The recorder is used up.
   RunRecord finish();

@@ -82,7 +82,8 @@ void validate_or_throw(const CameraModel& model) {
     if (!holds) throw std::invalid_argument("camera " + model.name + ": " + rule);
   };
   require(model.width > 0 && model.height > 0, "width and height must be positive");
-  require(model.horizontal_fov_deg > 0.0 && model.horizontal_fov_deg < 180.0, "horizontal_fov_deg must be within (0, 180)");
+  require(model.horizontal_fov_deg > 0.0 && model.horizontal_fov_deg < 180.0,
+          "horizontal_fov_deg must be within (0, 180)");
   require(model.rate_hz > 0.0, "rate_hz must be positive");
   require(model.electrons_per_dn > 0.0, "electrons_per_dn must be positive");
   require(model.read_noise_electrons >= 0.0, "read_noise_electrons must not be negative");
@@ -103,7 +104,8 @@ CameraIntrinsics intrinsics_of(const CameraModel& model) {
   return {model.width, model.height, focal_length, focal_length, 0.5 * (model.width - 1), 0.5 * (model.height - 1)};
 }
 
-Camera::Camera(CameraModel model, std::uint64_t seed) : model_(std::move(model)), seed_(derive_seed(seed, "camera noise")) {
+Camera::Camera(CameraModel model, std::uint64_t seed)
+    : model_(std::move(model)), seed_(derive_seed(seed, "camera noise")) {
   validate_or_throw(model_);
   exposure_s_ = std::clamp(exposure_s_, model_.min_exposure_s, model_.max_exposure_s);
 }
@@ -118,8 +120,7 @@ CameraFrame Camera::expose(const RadianceImage& image, std::int64_t stamp_ns, st
       static_cast<float>(sensor_lux_per_luminance(model_.f_number) * model_.electrons_per_lux_second * exposure_s_),
       static_cast<float>(model_.full_well_electrons),
       static_cast<float>(model_.read_noise_electrons * model_.read_noise_electrons),
-      static_cast<float>(gain_ / model_.electrons_per_dn),
-      static_cast<float>(model_.black_level_dn)};
+      static_cast<float>(gain_ / model_.electrons_per_dn), static_cast<float>(model_.black_level_dn)};
 
   CameraFrame frame{stamp_ns, 0, model_.width, model_.height, std::vector<std::uint8_t>(count)};
   const std::uint64_t frame_seed = mix_bits(seed_ ^ mix_bits(static_cast<std::uint64_t>(frame_index)));

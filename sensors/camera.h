@@ -15,16 +15,16 @@ struct CameraModel {
   int height = 360;
   double horizontal_fov_deg = 68.0;
   double rate_hz = 50.0;
-  double electrons_per_dn = 85.0;          ///< at unit gain; EuRoC MT9V034 as measured
+  double electrons_per_dn = 85.0;  ///< at unit gain; EuRoC MT9V034 as measured
   double read_noise_electrons = 29.0;
   double full_well_electrons = 21600.0;
   double f_number = 2.0;
   double electrons_per_lux_second = 7.36e4;  ///< in a pixel, per lux on the sensor; see camera.cc for the derivation
-  double black_level_dn = 5.0;             ///< what darkness reads, so that its noise is not cut off at 0
+  double black_level_dn = 5.0;               ///< what darkness reads, so that its noise is not cut off at 0
   double min_exposure_s = 50e-6;
   double max_exposure_s = 8e-3;
-  double max_gain = 4.0;                   ///< analogue, after the exposure is exhausted
-  double target_dn = 100.0;                ///< mean grey value that auto exposure aims at
+  double max_gain = 4.0;     ///< analogue, after the exposure is exhausted
+  double target_dn = 100.0;  ///< mean grey value that auto exposure aims at
 };
 
 /// @throws std::invalid_argument naming the field that is out of range.

@@ -80,9 +80,17 @@ struct Functions {
 
 OSMesaContext create_context(int threads) {
   setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
-  const int attributes[] = {
-      OSMESA_FORMAT, OSMESA_RGBA, OSMESA_DEPTH_BITS, 0, OSMESA_PROFILE, OSMESA_CORE_PROFILE,
-      OSMESA_CONTEXT_MAJOR_VERSION, 4, OSMESA_CONTEXT_MINOR_VERSION, 5, 0};
+  const int attributes[] = {OSMESA_FORMAT,
+                            OSMESA_RGBA,
+                            OSMESA_DEPTH_BITS,
+                            0,
+                            OSMESA_PROFILE,
+                            OSMESA_CORE_PROFILE,
+                            OSMESA_CONTEXT_MAJOR_VERSION,
+                            4,
+                            OSMESA_CONTEXT_MINOR_VERSION,
+                            5,
+                            0};
   OSMesaContext context = OSMesaCreateContextAttribs(attributes, nullptr);
   if (context == nullptr) throw std::runtime_error(kUnavailable);
   return context;
@@ -210,8 +218,7 @@ std::uint32_t GlContext::make_mesh(std::span<const float> vertices, std::span<co
   return mesh;
 }
 
-void GlContext::make_texture_array(int unit, int size,
-                                   std::span<const std::vector<std::vector<float>>* const> layers) {
+void GlContext::make_texture_array(int unit, int size, std::span<const std::vector<std::vector<float>>* const> layers) {
   const Functions& gl = impl_->gl;
   const auto level_count = static_cast<GLsizei>(layers.front()->size());
   GLuint texture = 0;

@@ -18,7 +18,7 @@ class GlContext {
 
   struct Program {
     std::uint32_t handle = 0;
-    std::int32_t matrix = -1;   ///< uniform mat4 clip_from_chunk
+    std::int32_t matrix = -1;  ///< uniform mat4 clip_from_chunk
     std::int32_t light = -1;   ///< uniform float light_factor
   };
 
@@ -38,8 +38,8 @@ class GlContext {
   /// Interleaved float vertices; attribute i has attribute_sizes[i] components. Returns a vertex array object.
   std::uint32_t make_mesh(std::span<const float> vertices, std::span<const int> attribute_sizes,
                           std::span<const std::uint32_t> indices);
-  /// Layers of one-channel mip levels, tiling and trilinearly filtered, bound to a texture unit for good. Floats, because
-  /// llvmpipe filters them a quarter faster than bytes. layers[i] has levels of sizes size, size / 2, ..., 1.
+  /// Layers of one-channel mip levels, tiling and trilinearly filtered, bound to a texture unit for good. Floats,
+  /// because llvmpipe filters them a quarter faster than bytes. layers[i] has levels of sizes size, size / 2, ..., 1.
   void make_texture_array(int unit, int size, std::span<const std::vector<std::vector<float>>* const> layers);
   /// One channel, bilinearly filtered, without mip levels.
   void make_texture(int unit, int width, int height, std::span<const float> texels);

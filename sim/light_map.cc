@@ -33,8 +33,13 @@ int rounded_up_to_power_of_two(int value) {
 LightMapBuilder::LightMapBuilder(const std::vector<Lamp>& lamps, double ambient_lux)
     : lamps_(lamps), ambient_lux_(ambient_lux) {
   // The first texel is for all that no lamp reaches.
-  patches_.push_back({Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
-                      Eigen::Vector3d::UnitZ(), {1, 1}, reserve({1, 1}), {}});
+  patches_.push_back({Eigen::Vector3d::Zero(),
+                      Eigen::Vector3d::Zero(),
+                      Eigen::Vector3d::Zero(),
+                      Eigen::Vector3d::UnitZ(),
+                      {1, 1},
+                      reserve({1, 1}),
+                      {}});
 }
 
 std::vector<int> LightMapBuilder::lamps_in_front(const Polygon& piece, const Eigen::Vector3d& normal,
@@ -113,7 +118,8 @@ LightMap LightMapBuilder::light() const {
   tbb::parallel_for(std::size_t{0}, patches_.size(), [&](std::size_t i) {
     const Patch& patch = patches_[i];
     for (int y = 0; y < patch.size.y(); ++y) {
-      const auto row = static_cast<std::size_t>(patch.place.y() + y) * kWidth + static_cast<std::size_t>(patch.place.x());
+      const auto row =
+          static_cast<std::size_t>(patch.place.y() + y) * kWidth + static_cast<std::size_t>(patch.place.x());
       for (int x = 0; x < patch.size.x(); ++x) {
         const Eigen::Vector3d point = patch.corner + x * patch.right + y * patch.down;
         map.lux[row + static_cast<std::size_t>(x)] = static_cast<float>(illuminance(patch, point));

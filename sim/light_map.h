@@ -33,12 +33,12 @@ class LightMapBuilder {
 
  private:
   struct Patch {
-    Eigen::Vector3d corner;    ///< world position of texel (0, 0)'s centre
-    Eigen::Vector3d right;     ///< to the next texel of the row [m]
-    Eigen::Vector3d down;      ///< to the next row
+    Eigen::Vector3d corner;  ///< world position of texel (0, 0)'s centre
+    Eigen::Vector3d right;   ///< to the next texel of the row [m]
+    Eigen::Vector3d down;    ///< to the next row
     Eigen::Vector3d normal;
-    Eigen::Vector2i size;      ///< [texels]
-    Eigen::Vector2i place;     ///< of texel (0, 0)
+    Eigen::Vector2i size;   ///< [texels]
+    Eigen::Vector2i place;  ///< of texel (0, 0)
     std::vector<int> lamps;
   };
   struct Shelf {
@@ -46,7 +46,8 @@ class LightMapBuilder {
     int y = 0;
   };
 
-  std::vector<int> lamps_in_front(const Polygon& piece, const Eigen::Vector3d& normal, const std::vector<int>& lamps) const;
+  std::vector<int> lamps_in_front(const Polygon& piece, const Eigen::Vector3d& normal,
+                                  const std::vector<int>& lamps) const;
   double texel_size(const Polygon& piece, const std::vector<int>& lamps) const;
   Eigen::Vector2i reserve(const Eigen::Vector2i& size);
   double illuminance(const Patch& patch, const Eigen::Vector3d& point) const;

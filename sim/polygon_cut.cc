@@ -38,9 +38,8 @@ void cut_along(int axis, Polygon polygon, Eigen::Vector3i cell, double cell_m, c
     visit(cell, polygon);
     return;
   }
-  const auto [low, high] = std::minmax_element(polygon.begin(), polygon.end(), [axis](const auto& a, const auto& b) {
-    return a[axis] < b[axis];
-  });
+  const auto [low, high] = std::minmax_element(polygon.begin(), polygon.end(),
+                                               [axis](const auto& a, const auto& b) { return a[axis] < b[axis]; });
   const int first = static_cast<int>(std::floor((*low)[axis] / cell_m));
   const int last = std::max(first, static_cast<int>(std::ceil((*high)[axis] / cell_m)) - 1);
   for (int k = first; k < last; ++k) {

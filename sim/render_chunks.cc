@@ -44,8 +44,7 @@ double plane_extent(const World& world, const std::vector<int>& geoms, double vi
 
 class ChunkBuilder {
  public:
-  ChunkBuilder(const World& world, double extent_m)
-      : world_(world), light_map_(world.lamps(), world.ambient_lux()) {
+  ChunkBuilder(const World& world, double extent_m) : world_(world), light_map_(world.lamps(), world.ambient_lux()) {
     // At most some 64 by 64 large cells under an infinite plane.
     while (large_cell_m_ * 32.0 < extent_m) large_cell_m_ *= 2.0;
   }
@@ -53,7 +52,8 @@ class ChunkBuilder {
   void add_triangle(const Polygon& triangle, const SurfaceMapping& mapping, int layer, const Material& material) {
     const Eigen::Vector3d normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
     if (normal.squaredNorm() == 0.0) return;
-    face_ = {normal.normalized(), mapping.face(normal.normalized()),
+    face_ = {normal.normalized(),
+             mapping.face(normal.normalized()),
              {material.albedo / std::numbers::pi_v<float>, material.contrast, static_cast<float>(layer)}};
     cut_into_cells(triangle, large_cell_m_, [this](const Eigen::Vector3i& large_cell, const Polygon& piece) {
       Cell& large = cell_at(large_cell, large_cell_m_);

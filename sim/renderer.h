@@ -36,8 +36,9 @@ struct RendererOptions {
 };
 
 /// Draws the world with OpenGL 4.5 core on OSMesa, headless, into a 32-bit float framebuffer. Surfaces are Lambertian:
-/// luminance = albedo / pi * illuminance. Geoms stand where World::data() has them at construction. Nothing casts a
-/// shadow, light does not bounce, and edges are not anti-aliased. Surfaces are drawn from outside only.
+/// luminance = albedo / pi * illuminance. Geoms and lamps stay as they are at construction: the illuminance is computed
+/// once, into a light map, because lamps lit pixel by pixel cost about a millisecond a frame each. Limitations: nothing
+/// casts a shadow, light does not bounce, edges are not anti-aliased, and surfaces are drawn from outside only.
 /// Construction, use and destruction belong to one thread (the GL context is current there).
 class Renderer {
  public:

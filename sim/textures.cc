@@ -72,7 +72,7 @@ void draw_concrete(TileCanvas& canvas, RandomStream& stream) {
 }
 
 void draw_brick(TileCanvas& canvas, RandomStream& stream) {
-  constexpr int kCourse = 16;   // 8 cm
+  constexpr int kCourse = 16;       // 8 cm
   constexpr int kLength = 256 / 5;  // 20 bricks of 25.6 cm in the tile
   constexpr float kJoint = 2.0F;
   canvas.add_octaves(2, 8, 0.09F, 0.2F, stream.bits());
@@ -108,7 +108,8 @@ void draw_panels(TileCanvas& canvas, RandomStream& stream) {
                           -0.55F);
         }
       }
-      const Eigen::Vector2f text_corner = centre + Eigen::Vector2f(draw(stream, -100.0, 20.0), draw(stream, -20.0, 40.0));
+      const Eigen::Vector2f text_corner =
+          centre + Eigen::Vector2f(draw(stream, -100.0, 20.0), draw(stream, -20.0, 40.0));
       const float text_height = draw(stream, 8.0, 26.0);
       if (stream.uniform() < 0.6) canvas.add_text(text_corner, draw_letters(stream, 3), text_height, -0.5F);
     }
@@ -150,12 +151,18 @@ void draw_plain(TileCanvas& canvas, RandomStream& stream) { canvas.add_octaves(2
 
 void draw_structure(TileCanvas& canvas, Material::Pattern pattern, RandomStream& stream) {
   switch (pattern) {
-    case Material::Pattern::kPlain: return draw_plain(canvas, stream);
-    case Material::Pattern::kConcrete: return draw_concrete(canvas, stream);
-    case Material::Pattern::kBrick: return draw_brick(canvas, stream);
-    case Material::Pattern::kPanels: return draw_panels(canvas, stream);
-    case Material::Pattern::kSigns: return draw_signs(canvas, stream);
-    case Material::Pattern::kAsphalt: return draw_asphalt(canvas, stream);
+    case Material::Pattern::kPlain:
+      return draw_plain(canvas, stream);
+    case Material::Pattern::kConcrete:
+      return draw_concrete(canvas, stream);
+    case Material::Pattern::kBrick:
+      return draw_brick(canvas, stream);
+    case Material::Pattern::kPanels:
+      return draw_panels(canvas, stream);
+    case Material::Pattern::kSigns:
+      return draw_signs(canvas, stream);
+    case Material::Pattern::kAsphalt:
+      return draw_asphalt(canvas, stream);
   }
 }
 

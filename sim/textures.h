@@ -7,8 +7,8 @@
 
 namespace plumbline {
 
-/// A mip-mapped texture that tiles. A texel is a factor on the material's albedo, within 1 +- kTextureRange; the mean over
-/// the tile is 1.
+/// A mip-mapped texture that tiles. A texel is a factor on the material's albedo, within 1 +- kTextureRange; the mean
+/// over the tile is 1.
 struct Texture {
   int size = 0;                            ///< of level 0, a power of two
   std::vector<std::vector<float>> levels;  ///< box-filtered in linear light, down to one texel

@@ -21,7 +21,8 @@ class TileCanvas {
   /// Adds value noise with one random value per `cell` texels (a power of two), smooth between them.
   /// @param sharpness  0: plain noise; 1: blotches with an edge
   void add_noise(int cell, float amplitude, float sharpness, std::uint64_t seed);
-  /// Adds octaves of equal amplitude with cells from `finest` to `coarsest`, so that contrast is there at every distance.
+  /// Adds octaves of equal amplitude with cells from `finest` to `coarsest`, so that contrast is there at every
+  /// distance.
   void add_octaves(int finest, int coarsest, float amplitude, float sharpness, std::uint64_t seed);
 
   /// Adds `value` inside a rectangle turned by `angle`, its edge smoothed over a texel.

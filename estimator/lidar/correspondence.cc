@@ -118,10 +118,9 @@ void add_plane_row(const Eigen::Vector3d& point_in_body, const MapPlane& plane, 
 void add_line_rows(const Eigen::Vector3d& point_in_body, const MapLine& line, const Pose& world_from_body,
                    double sigma_m, ResidualRows& rows) {
   const Eigen::Vector3d offset = world_from_body * point_in_body - line.point;
-  rows.add(line.across_1.dot(offset) / sigma_m,
-           component_jacobian(line.across_1, point_in_body, world_from_body) / sigma_m,
-           line.across_2.dot(offset) / sigma_m,
-           component_jacobian(line.across_2, point_in_body, world_from_body) / sigma_m);
+  rows.add(
+      line.across_1.dot(offset) / sigma_m, component_jacobian(line.across_1, point_in_body, world_from_body) / sigma_m,
+      line.across_2.dot(offset) / sigma_m, component_jacobian(line.across_2, point_in_body, world_from_body) / sigma_m);
 }
 
 }  // namespace plumbline

@@ -22,14 +22,14 @@ struct MapLine {
   Eigen::Vector3d across_2 = Eigen::Vector3d::UnitY();
 };
 
-/// What the eigen test of the neighbours' scatter asks for (thesis 5.3: one small and two large eigenvalues make a plane,
-/// one large and two small a line).
+/// What the eigen test of the neighbours' scatter asks for (thesis 5.3: one small and two large eigenvalues make a
+/// plane, one large and two small a line).
 struct FitLimits {
   int least_neighbours = 5;
-  double ratio = 9.0;             ///< of scatter eigenvalues, "much larger"
+  double ratio = 9.0;  ///< of scatter eigenvalues, "much larger"
   double largest_residual_m = 0.08;
-  double least_spread_m = 0.12;   ///< standard deviation along each large direction
-  double map_sigma_m = 0.006;     ///< noise of a map point, at least
+  double least_spread_m = 0.12;      ///< standard deviation along each large direction
+  double map_sigma_m = 0.006;        ///< noise of a map point, at least
   double largest_tilt_sigma = 0.03;  ///< [rad] of the fitted normal or direction
 };
 

@@ -18,9 +18,7 @@ struct Moments {
   float n = 0.0F;
   float x = 0.0F, y = 0.0F, xx = 0.0F, xy = 0.0F, yy = 0.0F;
 
-  Moments operator-(const Moments& o) const {
-    return {n - o.n, x - o.x, y - o.y, xx - o.xx, xy - o.xy, yy - o.yy};
-  }
+  Moments operator-(const Moments& o) const { return {n - o.n, x - o.x, y - o.y, xx - o.xx, xy - o.xy, yy - o.yy}; }
 };
 
 struct Line {
@@ -64,8 +62,7 @@ Profile profile_of(const RingTable& table, int i, int half_window) {
     const float x = d.dot(p.along);
     const float y = d.dot(p.bend);
     const Moments& s = p.sums[static_cast<std::size_t>(k)];
-    p.sums[static_cast<std::size_t>(k) + 1] = {s.n + 1.0F, s.x + x,      s.y + y,
-                                               s.xx + x * x, s.xy + x * y, s.yy + y * y};
+    p.sums[static_cast<std::size_t>(k) + 1] = {s.n + 1.0F, s.x + x, s.y + y, s.xx + x * x, s.xy + x * y, s.yy + y * y};
   }
   return p;
 }

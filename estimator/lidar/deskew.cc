@@ -5,8 +5,8 @@
 namespace plumbline {
 namespace {
 
-// The track is read on a grid this fine and points are blended between its knots. At 5 rad/s a millisecond turns 5 mrad;
-// blending instead of turning errs by angle^2 / 8, 0.3 mm at 100 m.
+// The track is read on a grid this fine and points are blended between its knots. At 5 rad/s a millisecond turns 5
+// mrad; blending instead of turning errs by angle^2 / 8, 0.3 mm at 100 m.
 constexpr std::int64_t kKnotInterval_ns = 1'000'000;
 
 /// Single precision suffices: motion within one scan is metres, so a float resolves micrometres.

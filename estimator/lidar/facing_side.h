@@ -5,8 +5,8 @@
 namespace plumbline {
 
 /// Which of the six directions +-x, +-y, +-z a normal faces most, 0..5; 6 for the zero normal of an edge.
-/// Points of one cell that face different sides lie on different surfaces (floor and wall, the two faces of a door leaf),
-/// and their mean would lie on neither.
+/// Points of one cell that face different sides lie on different surfaces (floor and wall, the two faces of a door
+/// leaf), and their mean would lie on neither.
 inline int facing_side(const Eigen::Vector3f& normal) {
   if (normal.squaredNorm() < 0.25F) return 6;
   int axis = 0;

@@ -14,13 +14,15 @@ namespace plumbline {
 namespace {
 
 // Half the window of (5.12). Ten returns, as LOAM uses, span a few centimetres near the sensor and measure range noise
-// there, not shape; so the window holds at least this length of surface, within a least and a largest number of returns.
+// there, not shape; so the window holds at least this length of surface, within a least and a largest number of
+// returns.
 constexpr float kHalfWindow_m = 0.25F;
 constexpr int kLeastHalfWindow = 5;
 constexpr int kLargestHalfWindow = 40;
 
-// An edge must deviate by this share of its range (thesis: 5e-3; less suffices since noise has its own term) and by this
-// many standard deviations of what range noise does to the deviation: of 30,000 returns on smooth walls, 0.2 exceed 4.5.
+// An edge must deviate by this share of its range (thesis: 5e-3; less suffices since noise has its own term) and by
+// this many standard deviations of what range noise does to the deviation: of 30,000 returns on smooth walls, 0.2
+// exceed 4.5.
 constexpr float kEdgeCurvature = 4e-3F;
 constexpr float kEdgeSigmas = 4.5F;
 // A planar point may deviate by this much.
@@ -32,7 +34,8 @@ constexpr float kSilhouetteGrazing = 0.3420F;  // sin(20 deg): a run that ends b
 constexpr int kSectors = 4;
 constexpr int kEdgesPerSector = 5;
 constexpr double kPlaneSpacing_m = 0.25;  // one planar feature a cell of this size and side
-// Points across two rings belong to one surface if they are no further apart than this share of the range, plus a little.
+// Points across two rings belong to one surface if they are no further apart than this share of the range, plus a
+// little.
 constexpr float kCrossLimit = 0.25F;
 constexpr float kCrossLimit_m = 0.1F;
 constexpr float kCrossBend = 0.90F;  // cos(25 deg): more between the patches above and below is a crease
@@ -131,8 +134,9 @@ class Extraction {
     return std::clamp(static_cast<int>(std::ceil(kHalfWindow_m / step_m)), kLeastHalfWindow, kLargestHalfWindow);
   }
 
-  /// Curvature (5.12), times the range, with two changes. The centre is the mean of a few returns, which cuts its noise.
-  /// The part along the surface is left out: uneven spacing of the returns on a slanting wall, not shape, causes it.
+  /// Curvature (5.12), times the range, with two changes. The centre is the mean of a few returns, which cuts its
+  /// noise. The part along the surface is left out: uneven spacing of the returns on a slanting wall, not shape, causes
+  /// it.
   Shape measure(int ring, int i) const {
     const int room = std::min(i - table_.run_begin(i), table_.run_end(i) - 1 - i);
     const int n = std::min(wanted_half_window(ring, i), room);
@@ -160,8 +164,8 @@ class Extraction {
         candidates.push_back({i, s.half_window, s.deviation_m / table_.range(i), Eigen::Vector3f::Zero()});
       } else if (is_silhouette(i, ring)) {
         // Ranked by the turn that the unseen side of the step would show: half the least window, at a right angle.
-        candidates.push_back({i, kLeastHalfWindow, 0.5F * kLeastHalfWindow * table_.beam_spacing(ring),
-                              silhouette_step(i, ring)});
+        candidates.push_back(
+            {i, kLeastHalfWindow, 0.5F * kLeastHalfWindow * table_.beam_spacing(ring), silhouette_step(i, ring)});
       }
     }
   }
@@ -188,8 +192,8 @@ class Extraction {
     return step.norm() < 3.0F * table_.beam_spacing(ring) * table_.range(i) ? step : Eigen::Vector3f::Zero();
   }
 
-  /// Where the same surface steps almost along the beam from ring to ring, a ring bends sharply on a smooth surface (the
-  /// floor of a round tunnel): grazing, as much as a wall seen edge-on.
+  /// Where the same surface steps almost along the beam from ring to ring, a ring bends sharply on a smooth surface
+  /// (the floor of a round tunnel): grazing, as much as a wall seen edge-on.
   bool runs_along_beam(int i, Column& above, Column& below) const {
     const Eigen::Vector3f up = step_across(i, above.at(table_.offset_ns(i)));
     const Eigen::Vector3f down = step_across(i, below.at(table_.offset_ns(i)));
@@ -232,8 +236,7 @@ class Extraction {
 
   bool is_planar(int i) const {
     const Shape& s = shape(i);
-    return s.half_window > 0 &&
-           s.deviation_m < std::max(kPlaneCurvature * table_.range(i), kPlaneSigmas * s.sigma_m);
+    return s.half_window > 0 && s.deviation_m < std::max(kPlaneCurvature * table_.range(i), kPlaneSigmas * s.sigma_m);
   }
 
   /// The step to the same surface on another ring, or zero where that ring sees another surface.

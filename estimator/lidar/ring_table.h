@@ -8,8 +8,8 @@
 
 namespace plumbline {
 
-/// A scan's usable returns sorted by ring, in firing order within a ring, cut into runs without a gap, with running sums
-/// from which the mean over any window costs the same. All indices are positions in the table.
+/// A scan's usable returns sorted by ring, in firing order within a ring, cut into runs without a gap, with running
+/// sums from which the mean over any window costs the same. All indices are positions in the table.
 class RingTable {
  public:
   RingTable(const LidarScan& scan, const std::vector<Eigen::Vector3f>& points_in_body, const Calibration& calibration);

@@ -25,8 +25,8 @@ constexpr double kReachPerRange = 0.07;
 constexpr int kPlaneNeighbours = 10;
 constexpr int kLineNeighbours = 16;
 
-// Correspondences are found anew only when the pose has moved this far since: searching is nearly all of a match's cost,
-// and planes a decimetre apart on one surface are the same plane.
+// Correspondences are found anew only when the pose has moved this far since: searching is nearly all of a match's
+// cost, and planes a decimetre apart on one surface are the same plane.
 constexpr double kSearchAgain_m = 0.02;
 constexpr double kSearchAgain_rad = 0.003;
 

@@ -14,18 +14,18 @@ struct ScanMatcherConfig {
   double coarse_voxel_m = 10.0;
   double edge_resolution_m = 0.1;
   double plane_resolution_m = 0.4;
-  double memory_path_m = 300.0;        ///< nothing older takes part in matching
+  double memory_path_m = 300.0;  ///< nothing older takes part in matching
   /// On whitened J^T J. Measured in worlds of known form (16 rings, 1.2 cm): the largest eigenvalue of a degenerate
   /// direction is 110 in a smooth tunnel, 710 on a bare plain, 620 along a round tube; the smallest of any direction is
   /// 34,500 in a corridor with a pair of door frames every 10 m, 204,000 with one every 5 m, 317,000 in a room. This is
   /// the geometric middle of the gap; it asks for 1.4 cm of standard deviation.
   double degeneracy_threshold = 5000.0;
   int max_iterations = 8;
-  int plane_budget = 1200;             ///< planar features matched of one scan
-  int edge_budget = 300;               ///< edge features matched of one scan
-  int least_features = 50;             ///< fewer matched: nothing is well-conditioned
-  double largest_plane_tilt = 0.03;    ///< [rad] one sigma of a fitted plane's normal
-  double largest_edge_tilt = 0.05;     ///< [rad] one sigma of a fitted line's direction
+  int plane_budget = 1200;           ///< planar features matched of one scan
+  int edge_budget = 300;             ///< edge features matched of one scan
+  int least_features = 50;           ///< fewer matched: nothing is well-conditioned
+  double largest_plane_tilt = 0.03;  ///< [rad] one sigma of a fitted plane's normal
+  double largest_edge_tilt = 0.05;   ///< [rad] one sigma of a fitted line's direction
 };
 
 /// Scan-to-map matching (thesis 5.3, eqs. 5.13-5.15): edge points to lines and planar points to planes of a voxel map.

@@ -10,8 +10,8 @@
 
 namespace plumbline {
 
-/// The map of one class of points (edges or planes) in two levels of voxels (thesis 5.3). Coarse voxels store the map, at
-/// most one point a cell and side; each subdivides into 10 x 10 x 10 fine voxels, and only points in or beside fine
+/// The map of one class of points (edges or planes) in two levels of voxels (thesis 5.3). Coarse voxels store the map,
+/// at most one point a cell and side; each subdivides into 10 x 10 x 10 fine voxels, and only points in or beside fine
 /// voxels that the scan hits enter its KD-tree.
 class VoxelMap {
  public:

@@ -115,8 +115,8 @@ Matrix6d d_perturbation_d_correction(const Vector6d& correction) {
 }
 
 /// The step of the correction x that minimises data and prior rows within the well-conditioned directions, thesis
-/// 5.20-5.21. All steps are taken in the guess's own frame, in which the directions were found: steps in the frame of the
-/// moving pose would turn with it, and so leave the well-conditioned subspace.
+/// 5.20-5.21. All steps are taken in the guess's own frame, in which the directions were found: steps in the frame of
+/// the moving pose would turn with it, and so leave the well-conditioned subspace.
 Vector6d remapped_step(const NormalEquations& data, const std::optional<PosePrior>& prior, const Pose& pose,
                        const Vector6d& correction, const Spectrum& spectrum) {
   NormalEquations all = data;
@@ -175,8 +175,8 @@ class RobustSolve {
     if (!all_finite(rows_)) return;
     result_.scale = robust_scale(rows_, options_.scale_floor, scratch_);
     bisquare_weights(rows_, result_.scale, result_.weights);
-    result_.inliers =
-        static_cast<int>(std::count_if(result_.weights.begin(), result_.weights.end(), [](double w) { return w > 0.0; }));
+    result_.inliers = static_cast<int>(
+        std::count_if(result_.weights.begin(), result_.weights.end(), [](double w) { return w > 0.0; }));
     data_ = accumulate(rows_, result_.weights);
   }
 
@@ -193,8 +193,8 @@ class RobustSolve {
 
   bool step() {
     if (result_.spectrum.well_conditioned == 0) return false;
-    const Vector6d step = remapped_step(data_, options_.remapping ? prior_ : std::nullopt, result_.pose, correction_,
-                                        result_.spectrum);
+    const Vector6d step =
+        remapped_step(data_, options_.remapping ? prior_ : std::nullopt, result_.pose, correction_, result_.spectrum);
     if (!step.allFinite()) return false;
     correction_ += step;
     result_.pose = guess_.retract(correction_);

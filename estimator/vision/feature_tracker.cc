@@ -15,8 +15,8 @@ constexpr int kPatchRadius = 5;  // [px] of the patch that is compared after tra
 constexpr int kGainRadius = 4;   // [px] of the boxes whose brightness is compared before tracking
 constexpr float kBorder = 8.0F;  // [px]: half the window
 constexpr double kMaxGain = 4.0;
-/// Least normalised correlation of a patch with its anchor. Noise that buried a patch scores near 0, a corner at the
-/// detection threshold 0.8, a patch stretched by a tenth still 0.9.
+/// Least normalised correlation of a patch with its anchor. With image noise of variance n over texture of variance s
+/// a true match scores about s / (s + n); a patch buried in noise scores near 0, whatever the search made of it.
 constexpr double kLeastCorrelation = 0.7;
 
 bool inside(const cv::Mat& image, float x, float y, float border) {
@@ -110,7 +110,7 @@ void FeatureTracker::anchor_here() {
 }
 
 /// Anchor's over newest image's exposure, from the brightness where the features are expected. The tracker assumes
-/// constant brightness, and auto exposure moves every corner it scales: by up to a pixel for a fifth of change.
+/// constant brightness, so uncompensated auto exposure would pull every corner towards its brighter or darker side.
 double FeatureTracker::Impl::exposure_ratio() {
   ratios.clear();
   constexpr float kReach = kGainRadius + 1.0F;

@@ -26,7 +26,8 @@ TEST(Correspondence, PlaneRowJacobianMatchesCentralDifferences) {
     return rows;
   };
   for (const Pose& pose : poses()) {
-    testing::expect_jacobian_near([&](const Pose& p) { return rows_at(p).residual(0); }, pose, rows_at(pose).jacobian(0));
+    testing::expect_jacobian_near([&](const Pose& p) { return rows_at(p).residual(0); }, pose,
+                                  rows_at(pose).jacobian(0));
   }
 }
 

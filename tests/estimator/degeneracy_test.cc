@@ -40,8 +40,8 @@ TEST(Degeneracy, CountsTheDirectionsAboveTheThresholdInAscendingOrder) {
   }
 }
 
-// A projector built from rows instead of columns of the eigenvectors, or from the wrong end of the spectrum, is symmetric
-// and idempotent as well; what tells them apart is that the weak directions vanish and the strong ones stay.
+// A projector built from rows instead of columns of the eigenvectors, or from the wrong end of the spectrum, is
+// symmetric and idempotent as well; what tells them apart is that the weak directions vanish and the strong ones stay.
 TEST(Degeneracy, ProjectorRemovesWeakAndKeepsStrongDirections) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const KnownMatrix known = known_matrix(kEigenvalues, seed);

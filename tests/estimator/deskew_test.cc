@@ -18,7 +18,8 @@ Pose hard_turn(double t) {
 
 PoseTrack imu_track(double from_s, double to_s) {
   PoseTrack track;
-  for (double t = from_s; t <= to_s; t += 0.005) track.push(static_cast<std::int64_t>(std::llround(t * 1e9)), hard_turn(t));
+  for (double t = from_s; t <= to_s; t += 0.005)
+    track.push(static_cast<std::int64_t>(std::llround(t * 1e9)), hard_turn(t));
   return track;
 }
 

@@ -20,7 +20,8 @@ FeatureCloud features_at(const BoxWorld& world, const Pose& pose, std::uint64_t 
   Calibration calibration;
   calibration.lidar_range_sigma_m = kRangeSigma;
   RandomStream noise(seed, "lidar");
-  const LidarScan scan = testing::vlp16_scan(world, [&](double) { return pose; }, 0, {}, kRangeSigma, noise);
+  const LidarScan scan = testing::vlp16_scan(
+      world, [&](double) { return pose; }, 0, {}, kRangeSigma, noise);
   PoseTrack rest;
   rest.push(0, {});
   return extract_features(scan, deskew(scan, rest, {}, 0), calibration);
@@ -60,7 +61,8 @@ TEST(Features, FindsTheCornersOfARoomToAFractionOfTheNoise) {
 TEST(Features, OfAnOcclusionOnlyTheNearSideIsAnEdge) {
   BoxWorld world;
   world.boxes.push_back({{-8.0, -8.0, -50.0}, {8.0, 8.0, 50.0}, true});
-  world.boxes.push_back({{4.0, -0.5, -50.0}, {4.3, 0.5, 50.0}, false});  // a pillar whose shadow falls on the wall x = 8
+  world.boxes.push_back(
+      {{4.0, -0.5, -50.0}, {4.3, 0.5, 50.0}, false});  // a pillar whose shadow falls on the wall x = 8
   const FeatureCloud cloud = features_at(world, at(0.0, 0.0, 0.0));
   int near_side = 0;
   for (const FeaturePoint& e : cloud.edges) {

@@ -36,7 +36,8 @@ TEST(So3, ExpMatchesAngleAxis) {
 }
 
 TEST(So3, LogInvertsExp) {
-  for (const Eigen::Vector3d& v : rotation_vectors()) EXPECT_LT((log_so3(exp_so3(v)) - v).norm(), 1e-9) << v.transpose();
+  for (const Eigen::Vector3d& v : rotation_vectors())
+    EXPECT_LT((log_so3(exp_so3(v)) - v).norm(), 1e-9) << v.transpose();
 }
 
 TEST(So3, LogTakesTheShortWayForEitherSignOfTheQuaternion) {
@@ -58,9 +59,9 @@ TEST(So3, RightJacobianIsTheDerivativeOfExp) {
     Eigen::Matrix3d numeric;
     for (int i = 0; i < 3; ++i) {
       const Eigen::Vector3d d = kStep * Eigen::Vector3d::Unit(i);
-      numeric.col(i) = (log_so3(exp_so3(v).conjugate() * exp_so3(v + d)) -
-                        log_so3(exp_so3(v).conjugate() * exp_so3(v - d))) /
-                       (2.0 * kStep);
+      numeric.col(i) =
+          (log_so3(exp_so3(v).conjugate() * exp_so3(v + d)) - log_so3(exp_so3(v).conjugate() * exp_so3(v - d))) /
+          (2.0 * kStep);
     }
     EXPECT_LT((numeric - right_jacobian_so3(v)).norm(), 1e-8) << v.transpose();
   }

@@ -26,8 +26,8 @@ Pose at(double x, double y = 0.0, double yaw = 0.0) { return {rotation_from_rpy(
 
 FeatureCloud still_scan(const BoxWorld& world, const Pose& pose, RandomStream& noise) {
   const Calibration c = calibration();
-  const LidarScan scan =
-      testing::vlp16_scan(world, [&](double) { return pose; }, 0, c.body_from_lidar, kRangeSigma, noise);
+  const LidarScan scan = testing::vlp16_scan(
+      world, [&](double) { return pose; }, 0, c.body_from_lidar, kRangeSigma, noise);
   PoseTrack rest;
   rest.push(0, {});
   return extract_features(scan, deskew(scan, rest, c.body_from_lidar, 0), c);
@@ -186,8 +186,7 @@ TEST(ScanMatcher, ScanToMapOdometryDriftsLittleOverFiftyMetres) {
   Pose guess = now;
   double path_m = 0.0;
   for (int k = 0; k < 250; ++k) {
-    const LidarScan scan =
-        testing::vlp16_scan(hall, motion, k * kPeriod_ns, c.body_from_lidar, kRangeSigma, noise);
+    const LidarScan scan = testing::vlp16_scan(hall, motion, k * kPeriod_ns, c.body_from_lidar, kRangeSigma, noise);
     PoseTrack track;
     track.push(scan.stamp_ns, k == 0 ? before : now);
     track.push(scan.end_ns, guess);

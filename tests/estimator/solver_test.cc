@@ -117,7 +117,8 @@ TEST(RobustSolver, SolvesTheStrongSubspaceAsIfTheWeakOneWereKnown) {
   EXPECT_LT(result.gradient.head<3>().norm() / result.information.norm(), 1e-9);
   EXPECT_LT((result.pose.translation - kTruth.translation).tail<2>().norm(), 1e-6);
   EXPECT_LT(kTruth.local(result.pose).head<3>().norm(), 1e-6);
-  EXPECT_NEAR(result.pose.translation.x() - kTruth.translation.x(), guess.translation.x() - kTruth.translation.x(), 1e-12);
+  EXPECT_NEAR(result.pose.translation.x() - kTruth.translation.x(), guess.translation.x() - kTruth.translation.x(),
+              1e-12);
 }
 
 TEST(RobustSolver, ThePriorHoldsWeakDirectionsWithoutAThreshold) {

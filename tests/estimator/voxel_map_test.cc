@@ -40,7 +40,7 @@ TEST(VoxelMap, FindsTheNearestAsBruteForceDoesAcrossVoxelBorders) {
       EXPECT_NEAR((nearest[i].position - query).norm(), distances[static_cast<std::size_t>(i)], 1e-9);
     }
     EXPECT_EQ(nearest.size(), std::min<std::ptrdiff_t>(10, std::count_if(distances.begin(), distances.end(),
-                                                                        [](double d) { return d < 1.0; })));
+                                                                         [](double d) { return d < 1.0; })));
   }
 }
 

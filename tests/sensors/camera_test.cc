@@ -58,7 +58,8 @@ TEST(Camera, PhotonTransferFollowsTheCalibrationsNoiseModel) {
     ASSERT_LT(level_dn, 240.0);
     RadianceImage image = even_image(model, luminance);
     const auto dn_of = [&](std::size_t i) { return level_dn + (static_cast<double>(i % 64) + 0.5) / 64.0 - 0.5; };
-    for (std::size_t i = 0; i < image.luminance.size(); ++i) image.luminance[i] *= static_cast<float>(dn_of(i) / level_dn);
+    for (std::size_t i = 0; i < image.luminance.size(); ++i)
+      image.luminance[i] *= static_cast<float>(dn_of(i) / level_dn);
 
     Camera camera(model, 3);
     const CameraFrame frame = camera.expose(image, 0, 0);
@@ -99,7 +100,8 @@ TEST(Camera, NoiseOfNeighboursAndOfFramesIsUncorrelated) {
   const auto covariance = [&](const CameraFrame& other, std::size_t shift) {
     double sum = 0.0;
     const std::size_t count = first.pixels.size() - shift;
-    for (std::size_t i = 0; i < count; ++i) sum += (first.pixels[i] - grey.mean) * (other.pixels[i + shift] - grey.mean);
+    for (std::size_t i = 0; i < count; ++i)
+      sum += (first.pixels[i] - grey.mean) * (other.pixels[i + shift] - grey.mean);
     return sum / static_cast<double>(count);
   };
   // Five standard errors of the correlation of 230,400 pairs.

@@ -75,7 +75,8 @@ SceneDescription crowded_room() {
   std::vector<Box> all = {{{0, 0, -1.5}, {20, 20, 0.1}}, {{12, 0, 0}, {0.1, 20, 3}}};
   for (int i = 0; i < 60; ++i) all.push_back({{2.0 + i % 8, 0.7 * i - 20.0, -1.0}, {0.2, 0.3, 0.1 + 0.02 * i}});
   SceneDescription scene = boxes(all, Material{.name = "brick", .pattern = Pattern::kBrick});
-  for (int i = 0; i < 10; ++i) scene.lamps.push_back({.position = {2.0 + i, 3.0 * i - 15.0, 2.0}, .intensity_cd = 100.0});
+  for (int i = 0; i < 10; ++i)
+    scene.lamps.push_back({.position = {2.0 + i, 3.0 * i - 15.0, 2.0}, .intensity_cd = 100.0});
   return scene;
 }
 
@@ -205,7 +206,8 @@ TEST(Renderer, LampsAddUpAndDarknessIsBlack) {
   const World world = World::from_scene(scene, 1);
   const RenderView view = wide_view();
   Renderer renderer(world, view);
-  EXPECT_NEAR(pixel(renderer.render(camera_at({-5, 0, 0}), 1.0).luminance, view, 320, 180), 0.5 / kPi * 400.0 / 9.0, 0.1);
+  EXPECT_NEAR(pixel(renderer.render(camera_at({-5, 0, 0}), 1.0).luminance, view, 320, 180), 0.5 / kPi * 400.0 / 9.0,
+              0.1);
   EXPECT_NEAR(pixel(renderer.render(camera_at({-5, 0, 0}, kPi), 1.0).luminance, view, 320, 180), 50.0, 1e-3);
   for (const double yaw : {0.0, kPi}) {
     EXPECT_THAT(renderer.render(camera_at({-5, 0, 0}, yaw), 0.0).luminance, ::testing::Each(0.0F));
@@ -289,7 +291,8 @@ TEST(Renderer, CornersCanBeTrackedWithoutShimmer) {
     for (const double distance : {2.0, 5.0, 12.0}) {
       for (const Eigen::Vector3d& step : {Eigen::Vector3d(0.0, 0.1, 0.03), Eigen::Vector3d(0.1, 0.0, 0.0)}) {
         const auto [median, high] = tracking_error(renderer, distance, step);
-        const std::string label = "pattern " + std::to_string(static_cast<int>(pattern)) + " at " + std::to_string(distance);
+        const std::string label =
+            "pattern " + std::to_string(static_cast<int>(pattern)) + " at " + std::to_string(distance);
         RecordProperty(label, std::to_string(median));
         EXPECT_LT(median, 0.15) << label;
         EXPECT_LT(high, 0.5) << label;

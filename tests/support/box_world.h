@@ -39,7 +39,8 @@ BoxWorld pillared_hall(double length_m);
 /// A motion as the true world_from_body over time [s].
 using Motion = std::function<Pose(double time_s)>;
 
-/// VLP-16 pattern: 16 rings 2 degrees apart, 1808 firings a revolution, 10 Hz, every return from where the lidar is then.
+/// VLP-16 pattern: 16 rings 2 degrees apart, 1808 firings a revolution, 10 Hz, every return from where the lidar is
+/// then.
 LidarScan vlp16_scan(const BoxWorld& world, const Motion& motion, std::int64_t stamp_ns, const Pose& body_from_lidar,
                      double range_sigma_m, RandomStream& noise);
 
