@@ -81,8 +81,9 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const auto& candidate : candidates) {
-    const std::size_t distance = edit_distance(word.substr(0, 100), candidate);
-    if (distance < best_distance) {
+    const bool left_out_unit = candidate.starts_with(std::string(word) + "_");
+    const std::size_t distance = left_out_unit ? 0 : edit_distance(word.substr(0, 100), candidate);
+    if (distance < best_distance || (distance == best_distance && candidate.size() < best.size())) {
       best_distance = distance;
       best = candidate;
     }

@@ -83,6 +83,7 @@ void read_motion(ConfigReader& reader, MotionConfig& config) {
   config.attitude = static_cast<MotionConfig::Attitude>(attitude);
   reader.section("gait", [&](ConfigReader& gait) { read_gait(gait, config); });
   read_list(reader, "oscillations", oscillation_of, config.oscillations);
+  reader.finish();  // a misspelt key is the better explanation of what is missing
   if (config.tum_file.empty() && config.waypoints.size() < 2) {
     fail_at(reader.node(), reader.path_of("waypoints"), "at least two way-points, or a trajectory under motion.tum");
   }

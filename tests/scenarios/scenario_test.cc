@@ -150,6 +150,8 @@ struct BadInput {
   std::string text;
   std::vector<std::string> overrides;
   std::vector<std::string> message;  ///< parts that it must hold
+
+  friend void PrintTo(const BadInput& bad, std::ostream* out) { *out << bad.what; }
 };
 
 class BadScenario : public ScenarioFile, public testing::WithParamInterface<BadInput> {};
@@ -169,8 +171,9 @@ std::string nested(int levels) {
 std::string alias_bomb() {
   std::string text = "a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
   for (int i = 1; i < 12; ++i) {
-    const std::string one = "*a" + std::to_string(i - 1);
-    text += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [" + one;
+    const std::string name = std::string("a").append(std::to_string(i));
+    const std::string one = std::string("*a").append(std::to_string(i - 1));
+    text += name + ": &" + name + " [" + one;
     for (int k = 0; k < 8; ++k) text += ", " + one;
     text += "]\n";
   }
@@ -263,7 +266,8 @@ TEST_F(ScenarioFile, LongChainsAndLoopsOfBasesAreRefused) {
   EXPECT_THAT(complaint("base: a.yaml\n"), AllOf(HasSubstr("b.yaml:1"), HasSubstr("lead back")));
   files_.write("base0.yaml", kMotion);
   for (int i = 1; i <= 10; ++i) {
-    files_.write("base" + std::to_string(i) + ".yaml", "base: base" + std::to_string(i - 1) + ".yaml\n");
+    const std::string below = std::to_string(i - 1);
+    files_.write("base" + std::to_string(i) + ".yaml", "base: base" + below + ".yaml\n");
   }
   EXPECT_THAT(complaint("base: base10.yaml\n"), HasSubstr("at most 8 bases"));
   EXPECT_EQ(complaint("base: base7.yaml\n"), "");

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -13,7 +14,8 @@ namespace plumbline {
 class TemporaryDirectory {
  public:
   TemporaryDirectory() {
-    const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::replace(test.begin(), test.end(), '/', '-');
     path_ = std::filesystem::path(testing::TempDir()) / ("plumbline-" + test + "-" + std::to_string(getpid()));
     std::filesystem::create_directories(path_);
   }
