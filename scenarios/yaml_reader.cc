@@ -72,6 +72,8 @@ ConfigNode parse(const std::string& text, Converter converter) {
   std::vector<YAML::Node> documents;
   try {
     documents = YAML::LoadAll(text);
+  } catch (const YAML::DeepRecursion& error) {
+    converter.fail(error.mark, "nested deeper than " + std::to_string(kMaxDepth) + " levels");
   } catch (const YAML::Exception& error) {
     converter.fail(error.mark, "not valid YAML: " + error.msg);
   }
