@@ -50,8 +50,10 @@ class RecordingEstimator : public Estimator {
 
   void add(const ImuSample& sample) override {
     Message& message = note(Module::kImu, sample.stamp_ns);
-    append(message.bytes, sample.angular_rate);
-    append(message.bytes, sample.specific_force);
+    for (int axis = 0; axis < 3; ++axis) {
+      append(message.bytes, sample.angular_rate[axis]);
+      append(message.bytes, sample.specific_force[axis]);
+    }
     pending_.push_back({});
     pending_.back().stamp_ns = sample.stamp_ns;
     if (messages.size() >= throw_after) throw std::runtime_error("out of spirits");
@@ -64,7 +66,7 @@ class RecordingEstimator : public Estimator {
     Message& message = note(Module::kLidar, scan.end_ns);
     append(message.bytes, scan.stamp_ns);
     for (const auto& point : scan.points) {
-      append(message.bytes, point.position);
+      for (const float coordinate : point.position) append(message.bytes, coordinate);
       append(message.bytes, point.offset_ns);
       append(message.bytes, point.ring);
       append(message.bytes, point.intensity);
