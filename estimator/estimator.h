@@ -33,7 +33,7 @@ struct ModuleHealth {
   int well_conditioned = 0;                      ///< number of directions above the threshold: the last columns
   int rows = 0;                                  ///< features or correspondences offered
   int inliers = 0;
-  Vector6d correction = Vector6d::Zero();        ///< what the module changed of the prediction, in B
+  Vector6d correction = Vector6d::Zero();  ///< what the module changed of the prediction, in B
   double processing_s = 0.0;
 };
 

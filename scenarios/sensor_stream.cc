@@ -124,8 +124,7 @@ class MergedSource {
       : first_(std::move(first)), second_(std::move(second)), next_first_(first_()), next_second_(second_()) {}
 
   std::unique_ptr<SensorMessage> next() {
-    const bool take_first =
-        next_first_ && (!next_second_ || next_first_->delivery_ns <= next_second_->delivery_ns);
+    const bool take_first = next_first_ && (!next_second_ || next_first_->delivery_ns <= next_second_->delivery_ns);
     return take_first ? std::exchange(next_first_, first_())
                       : std::exchange(next_second_, next_second_ ? second_() : nullptr);
   }
@@ -186,9 +185,9 @@ double light_factor_at(const std::vector<LightStep>& schedule, std::int64_t stam
 
 MessageSource make_source(const Scenario& scenario, const World& world, const RayScene& rays,
                           const Trajectory& world_from_body) {
-  return source_of(std::make_shared<MergedSource>(
-      source_of(std::make_shared<FrameStream>(scenario, world, world_from_body)),
-      source_of(std::make_shared<ScanStream>(scenario, world, rays, world_from_body))));
+  return source_of(
+      std::make_shared<MergedSource>(source_of(std::make_shared<FrameStream>(scenario, world, world_from_body)),
+                                     source_of(std::make_shared<ScanStream>(scenario, world, rays, world_from_body))));
 }
 
 MessageSource make_read_ahead_source(const Scenario& scenario, const World& world, const RayScene& rays,

@@ -32,8 +32,8 @@ using MessageSource = std::function<std::unique_ptr<SensorMessage>()>;
 MessageSource make_source(const Scenario& scenario, const World& world, const RayScene& rays,
                           const Trajectory& world_from_body);
 
-/// The same messages, made ahead by a thread per sensor as far as bounded queues allow. The threads end with the source;
-/// what they throw is thrown to the source's caller.
+/// The same messages, made ahead by a thread per sensor as far as bounded queues allow. The threads end with the
+/// source; what they throw is thrown to the source's caller.
 MessageSource make_read_ahead_source(const Scenario& scenario, const World& world, const RayScene& rays,
                                      const Trajectory& world_from_body);
 

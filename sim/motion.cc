@@ -5,16 +5,18 @@
 #include <stdexcept>
 
 #include "sim/random_stream.h"
+#include "sim/tum_file.h"
 
 namespace plumbline {
 namespace {
 
-constexpr double kStep_s = 0.01;       // knots of the trajectory; every IMU rate's interval falls between two of them
-constexpr double kGrid_m = 0.005;      // of the speed profile along the path
+constexpr double kStep_s = 0.01;   // knots of the trajectory; every IMU rate's interval falls between two of them
+constexpr double kGrid_m = 0.005;  // of the speed profile along the path
 constexpr double kGravity = 9.81;
 constexpr double kDegree = M_PI / 180.0;
-constexpr int kSmoothingPasses = 4;    // box filters; four make a kernel with three continuous derivatives
-constexpr std::size_t kMaxKnots = 2'000'000;
+constexpr int kSmoothingPasses = 4;  // box filters; four make a kernel with three continuous derivatives
+constexpr double kMaxDuration_s = 20000.0;
+constexpr auto kMaxKnots = static_cast<std::size_t>(kMaxDuration_s / kStep_s);
 
 /// Path length at every knot: from rest to rest, the waypoints' speeds, no more than the acceleration allowed.
 std::vector<double> travel(const std::vector<double>& segment_end_m, const std::vector<double>& segment_mps,
@@ -190,10 +192,26 @@ Trajectory through_waypoints(const MotionConfig& config, std::uint64_t seed) {
   return Trajectory(poses);
 }
 
+Trajectory from_tum(const MotionConfig& config) {
+  std::vector<PoseTrack::Stamped> poses = read_tum_file(config.tum_file);
+  const std::string name = config.tum_file.string();
+  if (poses.size() < 4) throw std::invalid_argument(name + ": fewer than 4 poses make no smooth motion");
+  const std::int64_t start_ns = poses.front().stamp_ns;
+  std::int64_t last_ns = -1;
+  for (PoseTrack::Stamped& stamped : poses) {
+    const double offset_ns = static_cast<double>(stamped.stamp_ns - start_ns) / config.speed_factor;
+    stamped.stamp_ns = std::llround(offset_ns);
+    if (stamped.stamp_ns <= last_ns) throw std::invalid_argument(name + ": speed_factor is too large for its stamps");
+    last_ns = stamped.stamp_ns;
+  }
+  if (seconds_between(0, last_ns) > kMaxDuration_s) throw std::invalid_argument(name + ": longer than 20000 s");
+  return Trajectory(poses);
+}
+
 }  // namespace
 
 Trajectory make_trajectory(const MotionConfig& config, std::uint64_t seed) {
-  return through_waypoints(config, seed);
+  return config.tum_file.empty() ? through_waypoints(config, seed) : from_tum(config);
 }
 
 }  // namespace plumbline

@@ -29,8 +29,9 @@ struct MotionConfig {
     double speed_mps = 0.0;                              ///< from here to the next one; 0: `speed_mps` of the motion
   };
 
-  std::filesystem::path tum_file;  ///< when set, everything below but speed_factor and rest_s is unused
-  std::vector<Waypoint> waypoints; ///< z is the body's height
+  std::filesystem::path
+      tum_file;  ///< played as it is, from its first pose on; of the rest only speed_factor counts then
+  std::vector<Waypoint> waypoints;  ///< z is the body's height
   double speed_mps = 1.4;
   double speed_factor = 1.0;
   double acceleration_mps2 = 1.0;  ///< along the path

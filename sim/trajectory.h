@@ -12,10 +12,10 @@ namespace plumbline {
 /// The true motion at one time.
 struct MotionState {
   Pose world_from_body;
-  Eigen::Vector3d velocity_in_world = Eigen::Vector3d::Zero();              ///< [m/s]
-  Eigen::Vector3d acceleration_in_world = Eigen::Vector3d::Zero();          ///< [m/s^2], without gravity
-  Eigen::Vector3d angular_rate_in_body = Eigen::Vector3d::Zero();           ///< [rad/s]
-  Eigen::Vector3d angular_acceleration_in_body = Eigen::Vector3d::Zero();   ///< [rad/s^2]
+  Eigen::Vector3d velocity_in_world = Eigen::Vector3d::Zero();             ///< [m/s]
+  Eigen::Vector3d acceleration_in_world = Eigen::Vector3d::Zero();         ///< [m/s^2], without gravity
+  Eigen::Vector3d angular_rate_in_body = Eigen::Vector3d::Zero();          ///< [rad/s]
+  Eigen::Vector3d angular_acceleration_in_body = Eigen::Vector3d::Zero();  ///< [rad/s^2]
 };
 
 /// A twice continuously differentiable motion: natural cubic splines through stamped poses, positions and (normalised)
@@ -36,8 +36,8 @@ class Trajectory {
   std::int64_t start_ns_ = 0;
   std::int64_t end_ns_ = 0;
   std::vector<double> times_s_;
-  std::vector<Channels> values_;   // x y z, qx qy qz qw
-  std::vector<Channels> second_;   // second derivatives at the knots
+  std::vector<Channels> values_;  // x y z, qx qy qz qw
+  std::vector<Channels> second_;  // second derivatives at the knots
 };
 
 }  // namespace plumbline

@@ -9,8 +9,7 @@ namespace plumbline {
 
 Pose interpolate(const Pose& a, const Pose& b, double ratio) {
   const Eigen::Vector3d turn = log_so3(a.rotation.conjugate() * b.rotation);
-  return {(a.rotation * exp_so3(ratio * turn)).normalized(),
-          a.translation + ratio * (b.translation - a.translation)};
+  return {(a.rotation * exp_so3(ratio * turn)).normalized(), a.translation + ratio * (b.translation - a.translation)};
 }
 
 void PoseTrack::push(std::int64_t stamp_ns, const Pose& pose) {
@@ -35,8 +34,7 @@ Pose PoseTrack::at(std::int64_t stamp_ns) const {
   if (after == poses_.begin()) return poses_.front().pose;
   if (after == poses_.end()) return poses_.back().pose;
   const Stamped& before = *(after - 1);
-  const double ratio =
-      seconds_between(before.stamp_ns, stamp_ns) / seconds_between(before.stamp_ns, after->stamp_ns);
+  const double ratio = seconds_between(before.stamp_ns, stamp_ns) / seconds_between(before.stamp_ns, after->stamp_ns);
   return interpolate(before.pose, after->pose, ratio);
 }
 

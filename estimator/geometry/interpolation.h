@@ -12,7 +12,8 @@ inline double seconds_between(std::int64_t earlier_ns, std::int64_t later_ns) {
   return static_cast<double>(later_ns - earlier_ns) * 1e-9;
 }
 
-/// Geodesic interpolation: rotation along the shortest arc, translation along the chord; ratio 0 gives `a`, 1 gives `b`.
+/// Geodesic interpolation: rotation along the shortest arc, translation along the chord; ratio 0 gives `a`, 1 gives
+/// `b`.
 Pose interpolate(const Pose& a, const Pose& b, double ratio);
 
 /// Stamped poses in time order, read between the stamps by `interpolate`.

@@ -38,8 +38,9 @@ InertialFilter::InertialFilter(const InitialState& start, const ImuNoise& noise,
   covariance_.block<3, 3>(kAccelBias, kAccelBias).diagonal().setConstant(bias_variance);
   covariance_.block<2, 3>(kGravity, kAccelBias) = bias_variance * lean_from_bias;
   covariance_.block<3, 2>(kAccelBias, kGravity) = bias_variance * lean_from_bias.transpose();
-  covariance_.block<2, 2>(kGravity, kGravity).diagonal().setConstant(
-      bias_variance + squared(start.tilt_sigma * kStandardGravity));
+  covariance_.block<2, 2>(kGravity, kGravity)
+      .diagonal()
+      .setConstant(bias_variance + squared(start.tilt_sigma * kStandardGravity));
   // The mean force's length also gave the bias along gravity.
   const Eigen::Vector3d up_in_body = world_from_body.transpose().col(2);
   const double known = std::max(0.0, bias_variance - squared(start.tilt_sigma * kStandardGravity));

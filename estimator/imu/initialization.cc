@@ -4,16 +4,15 @@
 
 namespace plumbline {
 namespace {
-constexpr double kRestWindow_s = 1.0;     // averages a consumer gyro's bias to 0.02 deg/s
+constexpr double kRestWindow_s = 1.0;  // averages a consumer gyro's bias to 0.02 deg/s
 constexpr double kDecisionWindow_s = 0.1;
-constexpr double kMovingFactor = 5.0;     // spread above so many times the data sheet's noise is motion
-constexpr double kMaxRestRate = 0.1;      // [rad/s], far above any turn-on bias at rest
-constexpr double kMovingTilt = 0.1;       // [rad], while walking the mean force is off the vertical by about this
-constexpr double kMovingVelocity = 5.0;   // [m/s]
+constexpr double kMovingFactor = 5.0;    // spread above so many times the data sheet's noise is motion
+constexpr double kMaxRestRate = 0.1;     // [rad/s], far above any turn-on bias at rest
+constexpr double kMovingTilt = 0.1;      // [rad], while walking the mean force is off the vertical by about this
+constexpr double kMovingVelocity = 5.0;  // [m/s]
 }  // namespace
 
-Initializer::Initializer(const Calibration& calibration)
-    : noise_(calibration.imu), rate_hz_(calibration.imu_rate_hz) {}
+Initializer::Initializer(const Calibration& calibration) : noise_(calibration.imu), rate_hz_(calibration.imu_rate_hz) {}
 
 std::optional<InitialState> Initializer::add(const ImuSample& sample) {
   ++count_;

@@ -30,12 +30,10 @@ NavigationState mechanize(const NavigationState& state, const InertialSegment& s
   const Eigen::Vector3d push = h * force;
 
   const Eigen::Vector3d coning = (h3 / 12.0) * rate.cross(segment.rate_slope);
-  const Eigen::Vector3d sculling =
-      (h3 / 12.0) * (force.cross(segment.rate_slope) + rate.cross(segment.force_slope));
+  const Eigen::Vector3d sculling = (h3 / 12.0) * (force.cross(segment.rate_slope) + rate.cross(segment.force_slope));
   const Eigen::Vector3d turned = angle.cross(push);
   const Eigen::Vector3d delta_velocity = push + 0.5 * turned + angle.cross(turned) / 6.0 + sculling;
-  const Eigen::Vector3d delta_position =
-      0.5 * h * push + (h / 6.0) * turned - (h3 / 12.0) * segment.force_slope;
+  const Eigen::Vector3d delta_position = 0.5 * h * push + (h / 6.0) * turned - (h3 / 12.0) * segment.force_slope;
 
   NavigationState next = state;
   next.stamp_ns = segment.end_ns;

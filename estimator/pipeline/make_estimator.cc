@@ -7,18 +7,24 @@ namespace plumbline {
 
 std::string_view to_string(Module module) {
   switch (module) {
-    case Module::kImu: return "imu";
-    case Module::kVision: return "vision";
-    case Module::kLidar: return "lidar";
+    case Module::kImu:
+      return "imu";
+    case Module::kVision:
+      return "vision";
+    case Module::kLidar:
+      return "lidar";
   }
   return "";
 }
 
 std::string_view to_string(ModuleMode mode) {
   switch (mode) {
-    case ModuleMode::kSolved: return "solved";
-    case ModuleMode::kPartial: return "partial";
-    case ModuleMode::kBypassed: return "bypassed";
+    case ModuleMode::kSolved:
+      return "solved";
+    case ModuleMode::kPartial:
+      return "partial";
+    case ModuleMode::kBypassed:
+      return "bypassed";
   }
   return "";
 }

@@ -56,15 +56,15 @@ struct SolverOptions {
 };
 
 struct SolveResult {
-  Pose pose;              ///< the guess where nothing could be solved
-  Spectrum spectrum;      ///< of the data at the first iteration
+  Pose pose;          ///< the guess where nothing could be solved
+  Spectrum spectrum;  ///< of the data at the first iteration
   /// The data's own normal equations at `pose`: information * d = -gradient, robust weights included, prior excluded.
   Matrix6d information = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
   int features = 0;
-  int inliers = 0;             ///< with a weight above zero
-  std::vector<double> weights; ///< per feature, in [0, 1]
-  double scale = 0.0;          ///< MAD of the whitened residuals, floored
+  int inliers = 0;              ///< with a weight above zero
+  std::vector<double> weights;  ///< per feature, in [0, 1]
+  double scale = 0.0;           ///< MAD of the whitened residuals, floored
   int iterations = 0;
   bool converged = false;
 };

@@ -43,7 +43,7 @@ Flight run_with_fixes(std::uint64_t seed, double until_s) {
     if (!run) {
       if (const auto start = initializer.add(sample)) {
         run.emplace(Flight{InertialFilter(*start, calibration.imu, /*remapping=*/true),
-                        start->state.world_from_body * trajectory.pose(t).inverse()});
+                           start->state.world_from_body * trajectory.pose(t).inverse()});
       }
     } else {
       run->filter.predict(segment_between(previous, sample));
@@ -134,8 +134,7 @@ TEST(InertialFilter, CovarianceStaysOneOverAMinuteOfKeyframesAlone) {
     const Pose motion = trajectory.pose(keyframe_ns).inverse() * trajectory.pose(t);
     SolveResult fix = pose_fix(motion);
     fix.information.diagonal() << 1.5e8, 9e8, 1.1e9, 1.3e6, 1.7e6, 2.9e6;  // what vision's features give indoors
-    filter.update_keyframe_motion(fix, filter.world_from_keyframe().inverse() * filter.state().world_from_body,
-                                  25.0);
+    filter.update_keyframe_motion(fix, filter.world_from_keyframe().inverse() * filter.state().world_from_body, 25.0);
     if (t - keyframe_ns < 700'000'000) continue;
     filter.set_keyframe(filter.state().world_from_body);
     keyframe_ns = t;

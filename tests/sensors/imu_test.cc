@@ -28,7 +28,8 @@ TEST(Imu, SampleIsTheMeanOverItsInterval) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   const int n = 2000;
   for (int i = 0; i < n; ++i) {
-    mean += trajectory.at_seconds((static_cast<double>(start) + (i + 0.5) / n * period) * 1e-9).angular_rate_in_body / n;
+    mean +=
+        trajectory.at_seconds((static_cast<double>(start) + (i + 0.5) / n * period) * 1e-9).angular_rate_in_body / n;
   }
   // The midpoint sum errs by (interval / n)^2 times a second derivative.
   EXPECT_LT((exact_sample(trajectory, start, start + period).angular_rate - mean).norm(), 1e-8);

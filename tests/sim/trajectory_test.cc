@@ -1,8 +1,11 @@
 #include "sim/trajectory.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 #include "estimator/geometry/so3.h"
 #include "sim/motion.h"
@@ -19,9 +22,12 @@ TEST(Trajectory, VelocityAndAccelerationAreTheDerivativesOfPosition) {
     const MotionState now = trajectory.at_seconds(t);
     const MotionState after = trajectory.at_seconds(t + h);
     // Central differences of a cubic err by h^2 / 6 times its third derivative, here below 1e-5.
-    EXPECT_LT(((after.world_from_body.translation - before.world_from_body.translation) / (2 * h) -
-               now.velocity_in_world).norm(), 1e-4);
-    EXPECT_LT(((after.velocity_in_world - before.velocity_in_world) / (2 * h) - now.acceleration_in_world).norm(), 1e-2);
+    EXPECT_LT(
+        ((after.world_from_body.translation - before.world_from_body.translation) / (2 * h) - now.velocity_in_world)
+            .norm(),
+        1e-4);
+    EXPECT_LT(((after.velocity_in_world - before.velocity_in_world) / (2 * h) - now.acceleration_in_world).norm(),
+              1e-2);
   }
 }
 
@@ -35,8 +41,9 @@ TEST(Trajectory, AngularRateIsTheDerivativeOfAttitude) {
     const Eigen::Vector3d rate =
         log_so3(before.world_from_body.rotation.conjugate() * after.world_from_body.rotation) / (2 * h);
     EXPECT_LT((rate - now.angular_rate_in_body).norm(), 1e-4);
-    EXPECT_LT(((after.angular_rate_in_body - before.angular_rate_in_body) / (2 * h) -
-               now.angular_acceleration_in_body).norm(), 0.05);
+    EXPECT_LT(((after.angular_rate_in_body - before.angular_rate_in_body) / (2 * h) - now.angular_acceleration_in_body)
+                  .norm(),
+              0.05);
   }
 }
 
@@ -80,6 +87,47 @@ TEST(Motion, SpeedFactorShortensTheDriveOnly) {
   const double fast = static_cast<double>(make_trajectory(config, 1).end_ns());
   const double still = (2.0 + 2.0 * 1.2) * 1e9;  // the rest and the smoothing at both ends do not scale
   EXPECT_NEAR((slow - still) / (fast - still), 2.0, 0.02);
+}
+
+class TumMotion : public ::testing::Test {
+ protected:
+  void write(const std::string& text) { std::ofstream(path_) << text; }
+  void TearDown() override { std::filesystem::remove(path_); }
+  MotionConfig config() const {
+    MotionConfig motion;
+    motion.tum_file = path_;
+    return motion;
+  }
+  std::filesystem::path path_ = std::filesystem::path(::testing::TempDir()) / "plumbline_motion_test.tum";
+};
+
+TEST_F(TumMotion, PassesThroughTheFilesPosesFromTimeZero) {
+  write(
+      "# recorded\n100.0 0 0 1 0 0 0 1\n100.5 1 0 1 0 0 0 1\n101.0 2 0.5 1 0 0 0.1736482 0.9848078\n"
+      "101.5 3 1 1 0 0 0.3420201 0.9396926\n102.0 4 2 1 0 0 0.5 0.8660254\n");
+  const Trajectory trajectory = make_trajectory(config(), 1);
+  EXPECT_EQ(trajectory.start_ns(), 0);
+  EXPECT_EQ(trajectory.end_ns(), 2'000'000'000);
+  const Pose middle = trajectory.pose(1'000'000'000);
+  EXPECT_LT((middle.translation - Eigen::Vector3d(2.0, 0.5, 1.0)).norm(), 1e-12);
+  // A quaternion of 10 degrees about z, twice: 20 degrees, given to seven digits.
+  EXPECT_NEAR(rpy_from_rotation(middle.rotation).z(), 20.0 * M_PI / 180.0, 1e-6);
+}
+
+TEST_F(TumMotion, SpeedFactorShortensTheFilesTimes) {
+  write("0 0 0 1 0 0 0 1\n1 1 0 1 0 0 0 1\n2 2 0 1 0 0 0 1\n3 3 0 1 0 0 0 1\n");
+  MotionConfig motion = config();
+  motion.speed_factor = 2.0;
+  EXPECT_EQ(make_trajectory(motion, 1).end_ns(), 1'500'000'000);
+}
+
+TEST_F(TumMotion, NamesTheFileThatItCannotUse) {
+  write("0 0 0 1 0 0 0 1\n1 1 0 1 0 0 0 1\n");
+  EXPECT_THAT([&] { make_trajectory(config(), 1); },
+              ::testing::ThrowsMessage<std::invalid_argument>(::testing::HasSubstr("plumbline_motion_test.tum")));
+  write("0 0 0 1 0 0 0 1\n1 nan 0 1 0 0 0 1\n");
+  EXPECT_THAT([&] { make_trajectory(config(), 1); },
+              ::testing::ThrowsMessage<std::invalid_argument>(::testing::HasSubstr("plumbline_motion_test.tum:2")));
 }
 
 TEST(Motion, SaysWhatIsWrong) {

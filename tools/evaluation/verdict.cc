@@ -1,15 +1,12 @@
 #include "tools/evaluation/verdict.h"
 
 #include <algorithm>
-#include <array>
 
 #include "tools/exit_code.h"
 #include "tools/formats/number_text.h"
 
 namespace plumbline {
 namespace {
-
-constexpr std::array kStatuses = {Status::kOk, Status::kFailed, Status::kLost, Status::kError};
 
 const Figure* find_figure(const std::vector<Figure>& figures, const std::string& key) {
   const auto found = std::find_if(figures.begin(), figures.end(), [&](const Figure& f) { return f.key == key; });
@@ -57,22 +54,6 @@ std::string to_string(Status status) {
 int Verdict::exit_code() const {
   if (status == Status::kError && expected_status != to_string(Status::kError)) return kExitFault;
   return holds ? kExitDone : kExitCheckFailed;
-}
-
-void require_known_expectations(const Scenario& scenario) {
-  const std::vector<Figure> known = figure_list(RunFigures{});
-  for (const Expectation& bound : scenario.expect) {
-    if (find_figure(known, bound.key) == nullptr) {
-      throw InputError(scenario.path.string() + ": expect." + bound.key +
-                       ": no such figure; allowed are the numbers of result.json, such as drift_percent");
-    }
-  }
-  const auto& expected = scenario.expect_status;
-  if (expected &&
-      std::none_of(kStatuses.begin(), kStatuses.end(), [&](Status s) { return to_string(s) == *expected; })) {
-    throw InputError(scenario.path.string() + ": expect.status: found '" + *expected +
-                     "'; allowed are ok, failed, lost, error");
-  }
 }
 
 Verdict judge(const Scenario& scenario, const RunRecord& record, const RunFigures& figures) {

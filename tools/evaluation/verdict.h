@@ -29,9 +29,6 @@ struct Verdict {
   int exit_code() const;
 };
 
-/// @throws InputError naming file and key if `expect:` names no figure of result.json or no status
-void require_known_expectations(const Scenario& scenario);
-
 /// error (a fault), else lost (the estimator says so, or its error outgrew the distance), else failed (an `expect:`),
 /// else ok. A run that was expected to be lost, and is, holds.
 Verdict judge(const Scenario& scenario, const RunRecord& record, const RunFigures& figures);
