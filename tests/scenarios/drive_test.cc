@@ -1,0 +1,105 @@
+// The real estimator driven through short pieces of the shipped scenarios: what it must do, not how well.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scenarios/session.h"
+
+namespace plumbline {
+namespace {
+
+RunRecord drive(const std::string& file, const std::vector<std::string>& overrides, int threads = 2) {
+  const auto path = std::filesystem::path(PLUMBLINE_SCENARIO_DIR) / file;
+  const Scenario scenario = load_scenario(path, overrides, std::nullopt);
+  const World world = make_world(scenario);
+  const RayScene rays(world);
+  SessionOptions options;
+  options.threads = threads;
+  return run_session(scenario, world, rays, options);
+}
+
+/// How far the estimate believes it came, straight from start to end.
+double travelled(const std::vector<PoseTrack::Stamped>& poses) {
+  return (poses.back().pose.translation - poses.front().pose.translation).norm();
+}
+
+std::string bytes_of(const RunRecord& record) {
+  std::string bytes;
+  const auto append = [&bytes](const void* data, std::size_t size) {
+    bytes.append(static_cast<const char*>(data), size);
+  };
+  for (const auto& stamped : record.estimate) {
+    append(&stamped.stamp_ns, sizeof stamped.stamp_ns);
+    append(stamped.pose.rotation.coeffs().data(), 4 * sizeof(double));
+    append(stamped.pose.translation.data(), 3 * sizeof(double));
+  }
+  for (const MapPoint& point : record.map) append(point.position.data(), 3 * sizeof(float));
+  return bytes;
+}
+
+const std::vector<std::string> kShortWalk{"motion.waypoints=[[6, 4.75, 1.5], [10, 4.75, 1.5]]"};
+// Ten metres in the middle of the tunnel, the ends out of the lidar's range.
+const std::string kShortDrive = "motion.waypoints=[[-5, 0, 1.5], [5, 0, 1.5]]";
+
+TEST(Drive, EstimateAndMapAreTheSameBytesForOneAndTwoThreads) {
+  const std::string one = bytes_of(drive("quickstart.yaml", kShortWalk, 1));
+  EXPECT_FALSE(one.empty());
+  EXPECT_TRUE(one == bytes_of(drive("quickstart.yaml", kShortWalk, 2)));
+  EXPECT_TRUE(one == bytes_of(drive("quickstart.yaml", kShortWalk, 2)));
+}
+
+TEST(Drive, OtherSeedsDrawOtherNoise) {
+  std::vector<std::string> other = kShortWalk;
+  other.push_back("seed=2");
+  EXPECT_FALSE(bytes_of(drive("quickstart.yaml", kShortWalk)) == bytes_of(drive("quickstart.yaml", other)));
+}
+
+TEST(Drive, InATunnelTheLidarSaysThatItCannotSeeAlongIt) {
+  const RunRecord record = drive("tunnel_short.yaml", {kShortDrive});
+  int scans = 0;
+  int along_axis = 0;
+  for (const ModuleHealth& health : record.health) {
+    if (health.module != Module::kLidar) continue;
+    ++scans;
+    bool weak_along_axis = false;
+    // The body looks along the tunnel, so the axis is B's x: component 3 of a direction.
+    for (int i = 0; i < 6 - health.well_conditioned; ++i) {
+      weak_along_axis |= std::abs(health.eigenvectors(3, i)) > 0.95;
+    }
+    along_axis += weak_along_axis ? 1 : 0;
+    EXPECT_LT(std::abs(health.correction[3]), 1e-3);  // remapping: the axis is left to vision
+  }
+  ASSERT_GT(scans, 30);
+  EXPECT_GE(along_axis, 0.95 * scans);
+  // Vision carries the axis: 2 % of ten metres is twice what the whole scenario is allowed.
+  EXPECT_NEAR(travelled(record.estimate), travelled(record.ground_truth), 0.2);
+}
+
+TEST(Drive, InTheDarkVisionStandsAsideAndComesBack) {
+  const RunRecord record =
+      drive("corridor.yaml", {"motion.waypoints=[[1.5, 0, 1.5], [13, 0, 1.5]]",
+                              "world.light.schedule=[{start_s: 5, factor: 0}, {start_s: 7, factor: 1}]"});
+  int dark = 0;
+  int dark_used = 0;
+  int lit_again = 0;
+  int lit_again_used = 0;
+  for (const ModuleHealth& health : record.health) {
+    if (health.module != Module::kVision) continue;
+    const double t = static_cast<double>(health.stamp_ns) * 1e-9;
+    const bool used = health.mode != ModuleMode::kBypassed;
+    if (t > 5.0 && t < 7.0) ++dark, dark_used += used ? 1 : 0;
+    if (t > 8.0) ++lit_again, lit_again_used += used ? 1 : 0;  // a second to come back
+  }
+  ASSERT_GT(dark, 90);
+  ASSERT_GT(lit_again, 50);
+  EXPECT_LE(dark_used, 0.05 * dark);
+  EXPECT_GE(lit_again_used, 0.95 * lit_again);
+  EXPECT_NEAR(travelled(record.estimate), travelled(record.ground_truth), 0.1);
+}
+
+}  // namespace
+}  // namespace plumbline
