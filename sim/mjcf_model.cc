@@ -10,6 +10,7 @@
 #include <iterator>
 #include <mutex>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -22,6 +23,20 @@ constexpr std::uintmax_t kMaxFileBytes = 64U << 20U;
 // same name would be hidden, so they are unlikely ones.
 constexpr char kWrapperName[] = "plumbline-wrapper-7c1f.xml";
 constexpr char kSceneName[] = "plumbline-scene-7c1f.xml";
+
+/// MuJoCo's messages run over several lines; ours are one.
+std::string on_one_line(std::string_view message) {
+  std::string line;
+  for (const char c : message) {
+    if (c != '\n') {
+      line += c;
+    } else if (!line.empty() && !line.ends_with("; ")) {
+      line += "; ";
+    }
+  }
+  while (line.ends_with("; ")) line.resize(line.size() - 2);
+  return line;
+}
 
 [[noreturn]] void throw_mujoco_error(const char* message) { throw std::invalid_argument(message); }
 void ignore_mujoco_warning(const char*) {}
@@ -107,7 +122,7 @@ void check_finite(const mjModel& model) {
 MjModelPtr load(const std::string& path, const VirtualFiles& files) {
   std::array<char, 1024> message{};
   MjModelPtr model(mj_loadXML(path.c_str(), files.get(), message.data(), static_cast<int>(message.size())));
-  if (!model) throw std::invalid_argument(message.data());
+  if (!model) throw std::invalid_argument(on_one_line(message.data()));
   check_finite(*model);
   model->opt.disableflags |= mjDSBL_CONTACT;
   return model;
