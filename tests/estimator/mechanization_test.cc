@@ -10,11 +10,6 @@
 namespace plumbline {
 namespace {
 
-struct EndError {
-  double position_m = 0.0;
-  double attitude_rad = 0.0;
-};
-
 NavigationState true_state(const Trajectory& trajectory, std::int64_t stamp_ns) {
   const MotionState truth = trajectory.at(stamp_ns);
   NavigationState state;
@@ -22,33 +17,6 @@ NavigationState true_state(const Trajectory& trajectory, std::int64_t stamp_ns) 
   state.world_from_body = truth.world_from_body;
   state.velocity_in_world = truth.velocity_in_world;
   return state;
-}
-
-EndError reintegrate(const Trajectory& trajectory, std::int64_t period_ns, std::int64_t end_ns) {
-  NavigationState state = true_state(trajectory, 0);
-  ImuSample previous = exact_sample(trajectory, -period_ns, 0);
-  for (std::int64_t t = period_ns; t <= end_ns; t += period_ns) {
-    const ImuSample sample = exact_sample(trajectory, t - period_ns, t);
-    state = mechanize(state, segment_between(previous, sample));
-    previous = sample;
-  }
-  const Vector6d error = true_state(trajectory, end_ns).world_from_body.local(state.world_from_body);
-  return {error.tail<3>().norm(), error.head<3>().norm()};
-}
-
-TEST(Mechanization, ErrorFallsWithTheSquareOfTheIntervalOrFaster) {
-  const Trajectory trajectory = make_trajectory(testing::aggressive_motion(), 1);
-  const std::int64_t end_ns = 60'000'000'000;
-  ASSERT_GE(trajectory.end_ns(), end_ns);
-  const EndError coarse = reintegrate(trajectory, 10'000'000, end_ns);
-  const EndError fine = reintegrate(trajectory, 1'250'000, end_ns);
-  // Three octaves from 100 to 800 Hz.
-  const double slope = std::log2(coarse.position_m / fine.position_m) / 3.0;
-  RecordProperty("slope", std::to_string(slope));
-  EXPECT_GE(slope, 1.9) << coarse.position_m << " m at 100 Hz, " << fine.position_m << " m at 800 Hz";
-  // What a perfect 800 Hz unit may leave after a minute: far below any estimator's drift.
-  EXPECT_LE(fine.position_m, 0.02);
-  EXPECT_LE(fine.attitude_rad, 0.02 * M_PI / 180.0);
 }
 
 TEST(Mechanization, SplittingAnIntervalChangesNothing) {
