@@ -6,18 +6,10 @@
 
 #include "sensors/imu.h"
 #include "tests/support/aggressive_motion.h"
+#include "tests/support/true_state.h"
 
 namespace plumbline {
 namespace {
-
-NavigationState true_state(const Trajectory& trajectory, std::int64_t stamp_ns) {
-  const MotionState truth = trajectory.at(stamp_ns);
-  NavigationState state;
-  state.stamp_ns = stamp_ns;
-  state.world_from_body = truth.world_from_body;
-  state.velocity_in_world = truth.velocity_in_world;
-  return state;
-}
 
 TEST(Mechanization, SplittingAnIntervalChangesNothing) {
   const Trajectory trajectory = make_trajectory(testing::aggressive_motion(), 1);
@@ -25,7 +17,7 @@ TEST(Mechanization, SplittingAnIntervalChangesNothing) {
   const std::int64_t period = 5'000'000;
   const InertialSegment whole =
       segment_between(exact_sample(trajectory, t - period, t), exact_sample(trajectory, t, t + period));
-  const NavigationState start = true_state(trajectory, t);
+  const NavigationState start = testing::true_state(trajectory, t);
   const NavigationState once = mechanize(start, whole);
   const NavigationState twice =
       mechanize(mechanize(start, whole.part(t, t + 2'000'000)), whole.part(t + 2'000'000, t + period));

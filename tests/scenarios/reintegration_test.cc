@@ -9,6 +9,7 @@
 #include "estimator/imu/mechanization.h"
 #include "scenarios/session.h"
 #include "sensors/imu.h"
+#include "tests/support/true_state.h"
 
 namespace plumbline {
 namespace {
@@ -20,25 +21,16 @@ struct EndError {
   double attitude_rad = 0.0;
 };
 
-NavigationState true_state(const Trajectory& trajectory, std::int64_t stamp_ns) {
-  const MotionState truth = trajectory.at(stamp_ns);
-  NavigationState state;
-  state.stamp_ns = stamp_ns;
-  state.world_from_body = truth.world_from_body;
-  state.velocity_in_world = truth.velocity_in_world;
-  return state;
-}
-
 EndError reintegrate(const Trajectory& trajectory, double rate_hz) {
   const std::int64_t period_ns = std::llround(1e9 / rate_hz);
-  NavigationState state = true_state(trajectory, 0);
+  NavigationState state = testing::true_state(trajectory, 0);
   ImuSample previous = exact_sample(trajectory, -period_ns, 0);
   for (std::int64_t t = period_ns; t <= kEnd_ns; t += period_ns) {
     const ImuSample sample = exact_sample(trajectory, t - period_ns, t);
     state = mechanize(state, segment_between(previous, sample));
     previous = sample;
   }
-  const Vector6d error = true_state(trajectory, kEnd_ns).world_from_body.local(state.world_from_body);
+  const Vector6d error = testing::true_state(trajectory, kEnd_ns).world_from_body.local(state.world_from_body);
   return {error.tail<3>().norm(), error.head<3>().norm()};
 }
 
