@@ -48,11 +48,14 @@ struct LidarPoint {
   float intensity = 0.0F;                              ///< [0, 1]
 };
 
-/// One revolution, points in firing order; raw, not de-skewed.
+/// Points in firing order; raw, not de-skewed. Of a spinning lidar one revolution. A scanner turned by a motor (2-axis)
+/// sends its sweep in parts, and a ring is one line of the scanner, counted from the sweep's start.
 struct LidarScan {
   std::int64_t stamp_ns = 0;  ///< of the first firing
-  std::int64_t end_ns = 0;    ///< one revolution later; the scan is delivered then
+  std::int64_t end_ns = 0;    ///< of the time it covers; the scan is delivered then
   std::vector<LidarPoint> points;
+  std::int64_t sweep = 0;  ///< which sweep it is part of
+  bool ends_sweep = true;  ///< the last part
 };
 
 /// Pinhole without distortion: u = fx x/z + cx, v = fy y/z + cy.

@@ -79,9 +79,9 @@ World make_world(const Scenario& scenario) {
   });
 }
 
-Trajectory make_body_trajectory(const Scenario& scenario) {
+Trajectory make_body_trajectory(const Scenario& scenario, const World& world, const RayScene& rays) {
   return as_input(scenario, [&] {
-    return mounted_on(make_trajectory(scenario.motion, scenario.seed), scenario.rig.vehicle_from_pack);
+    return mounted_on(make_trajectory(scenario.motion, world, rays, scenario.seed), scenario.rig.vehicle_from_pack);
   });
 }
 
@@ -95,10 +95,11 @@ RunRecord run_session(const Scenario& scenario, const World& world, const RaySce
 
 RunRecord run_session(const Scenario& scenario, const World& world, const RayScene& rays, const SessionOptions& options,
                       Estimator& estimator) {
-  const Trajectory world_from_body = make_body_trajectory(scenario);
+  const Trajectory world_from_body = make_body_trajectory(scenario, world, rays);
   Recorder recorder(estimator, world_from_body.end_ns());
-  MessageSource source = options.threads > 1 ? make_read_ahead_source(scenario, world, rays, world_from_body)
-                                             : make_source(scenario, world, rays, world_from_body);
+  const Surroundings surroundings{world, rays};
+  MessageSource source = options.threads > 1 ? make_read_ahead_source(scenario, surroundings, world_from_body)
+                                             : make_source(scenario, surroundings, world_from_body);
   run(scenario, world_from_body, std::move(source), options, recorder);
   return recorder.finish();
 }

@@ -20,7 +20,7 @@ struct SessionOptions {
 World make_world(const Scenario& scenario);
 
 /// The body's exact motion in a scenario, stamps counted from 0. @throws InputError
-Trajectory make_body_trajectory(const Scenario& scenario);
+Trajectory make_body_trajectory(const Scenario& scenario, const World& world, const RayScene& rays);
 
 /// Runs a scenario in lock-step: world, motion, sensors, estimator. A fault of the estimator ends the run and is kept
 /// in the record; bad input throws InputError before anything is simulated.

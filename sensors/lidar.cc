@@ -67,9 +67,12 @@ Lidar::Lidar(LidarModel model, const Pose& body_from_lidar, std::uint64_t seed)
 
 std::int64_t Lidar::period_ns() const { return nanoseconds(1.0 / model_.rate_hz); }
 
-LidarScan Lidar::scan(const RayScene& scene, const World& world, const PoseTrack& world_from_body,
-                      std::int64_t start_ns, std::int64_t scan_index) const {
-  LidarScan scan{start_ns, start_ns + period_ns(), {}};
+LidarScan Lidar::scan(const Surroundings& surroundings, const PoseTrack& world_from_body, std::int64_t start_ns,
+                      std::int64_t scan_index) const {
+  LidarScan scan;
+  scan.stamp_ns = start_ns;
+  scan.end_ns = start_ns + period_ns();
+  scan.sweep = scan_index;
   require_cover(world_from_body, scan.stamp_ns, scan.end_ns);
   // Whole cycles only: the head's remaining part of a cycle falls to nobody.
   const auto cycles = static_cast<int>(seconds_between(scan.stamp_ns, scan.end_ns) / model_.cycle_s);
@@ -88,24 +91,25 @@ LidarScan Lidar::scan(const RayScene& scene, const World& world, const PoseTrack
       // Drawn whether or not there is a return, so that a surface's change leaves the others' noise as it was.
       const double range_noise_m = model_.range_sigma_m * noise.gaussian();
       const Pose world_from_lidar = pose_within_cycle(cycle_begin, cycle_end, laser.share_of_cycle);
-      const auto point = fire(scene, world, world_from_lidar, laser, cycle_offset_ns + laser.offset_ns, range_noise_m);
+      const auto point = fire(surroundings, world_from_lidar, laser, cycle_offset_ns + laser.offset_ns, range_noise_m);
       if (point) scan.points.push_back(*point);
     }
   }
   return scan;
 }
 
-std::optional<LidarPoint> Lidar::fire(const RayScene& scene, const World& world, const Pose& world_from_lidar,
+std::optional<LidarPoint> Lidar::fire(const Surroundings& surroundings, const Pose& world_from_lidar,
                                       const Laser& laser, std::int32_t offset_ns, double range_noise_m) const {
   const double azimuth = std::numbers::pi * (1.0 - 2.0 * model_.rate_hz * 1e-9 * offset_ns);
   const Eigen::Vector3d origin(0.0, 0.0, laser.vertical_offset_m);
   const Eigen::Vector3d direction(laser.cos_elevation * std::cos(azimuth), laser.cos_elevation * std::sin(azimuth),
                                   laser.sin_elevation);
   const Eigen::Vector3d direction_in_world = world_from_lidar.rotation * direction;
-  const RayHit hit = scene.cast(world_from_lidar * origin, direction_in_world, 0.0, model_.max_range_m);
+  const RayHit hit = surroundings.rays.cast(world_from_lidar * origin, direction_in_world, 0.0, model_.max_range_m);
   if (!hit.hit) return std::nullopt;
 
-  const Material& material = world.materials()[static_cast<std::size_t>(world.material_of(hit.geom))];
+  const Material& material =
+      surroundings.world.materials()[static_cast<std::size_t>(surroundings.world.material_of(hit.geom))];
   const double cos_incidence = std::abs(hit.normal_in_world.cast<double>().dot(direction_in_world));
   const double reflectivity_towards_lidar = material.lidar_reflectivity * cos_incidence;
   if (!is_detected(hit.range_m, reflectivity_towards_lidar)) return std::nullopt;

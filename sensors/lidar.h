@@ -8,7 +8,7 @@
 #include "estimator/geometry/interpolation.h"
 #include "estimator/messages.h"
 #include "sim/random_stream.h"
-#include "sim/ray_scene.h"
+#include "sim/surroundings.h"
 
 namespace plumbline {
 
@@ -46,7 +46,7 @@ class Lidar {
   /// the angle of incidence, as of a device that compensates for range.
   /// @param world_from_body  must cover the revolution
   /// @throws std::invalid_argument if it does not
-  LidarScan scan(const RayScene& scene, const World& world, const PoseTrack& world_from_body, std::int64_t start_ns,
+  LidarScan scan(const Surroundings& surroundings, const PoseTrack& world_from_body, std::int64_t start_ns,
                  std::int64_t scan_index) const;
 
   const LidarModel& model() const { return model_; }
@@ -65,8 +65,8 @@ class Lidar {
     std::uint16_t ring = 0;
   };
 
-  std::optional<LidarPoint> fire(const RayScene& scene, const World& world, const Pose& world_from_lidar,
-                                 const Laser& laser, std::int32_t offset_ns, double range_noise_m) const;
+  std::optional<LidarPoint> fire(const Surroundings& surroundings, const Pose& world_from_lidar, const Laser& laser,
+                                 std::int32_t offset_ns, double range_noise_m) const;
   double measured_range(double true_range_m, const Laser& laser, double range_noise_m) const;
   bool is_detected(double range_m, double reflectivity_towards_lidar) const;
 

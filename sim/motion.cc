@@ -210,6 +210,11 @@ Trajectory from_tum(const MotionConfig& config) {
 
 }  // namespace
 
+Trajectory make_trajectory(const MotionConfig& config, const World& /*world*/, const RayScene& /*rays*/,
+                           std::uint64_t seed) {
+  return make_trajectory(config, seed);
+}
+
 Trajectory make_trajectory(const MotionConfig& config, std::uint64_t seed) {
   return config.tum_file.empty() ? through_waypoints(config, seed) : from_tum(config);
 }

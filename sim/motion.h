@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "sim/ray_scene.h"
 #include "sim/trajectory.h"
+#include "sim/world.h"
 
 namespace plumbline {
 
@@ -29,6 +31,14 @@ struct MotionConfig {
     double speed_mps = 0.0;                              ///< from here to the next one; 0: `speed_mps` of the motion
   };
 
+  /// What moves: empty, a spline through the way-points; else a name of vehicle_library().
+  std::string vehicle;
+  /// A route of the scene to follow in place of way-points: "" for none, "tour" or its name.
+  std::string route;
+  double route_start_m = 0.0;   ///< along it
+  double route_length_m = 0.0;  ///< how much of it; 0: to its end, or once round
+  double height_m = 0.0;        ///< of the vehicle's frame above the route
+
   std::filesystem::path
       tum_file;  ///< played as it is, from its first pose on; of the rest only speed_factor counts then
   std::vector<Waypoint> waypoints;  ///< z is the body's height
@@ -47,6 +57,9 @@ struct MotionConfig {
 };
 
 /// @throws std::invalid_argument naming the field, or the file and line of a TUM file, that cannot be used.
+Trajectory make_trajectory(const MotionConfig& config, const World& world, const RayScene& rays, std::uint64_t seed);
+
+/// The same for motions that need no world: splines through way-points and TUM files.
 Trajectory make_trajectory(const MotionConfig& config, std::uint64_t seed);
 
 }  // namespace plumbline

@@ -235,8 +235,15 @@ RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 RayScene::~RayScene() = default;
 
+RayWindow RayScene::window(const Eigen::Vector3d& /*place*/, double /*reach_m*/) const { return RayWindow(*this); }
+
+RayHit RayWindow::cast(const Eigen::Vector3d& origin_in_world, const Eigen::Vector3d& direction_in_world,
+                       double min_range_m, double max_range_m, double time_s) const {
+  return scene_->cast(origin_in_world, direction_in_world, min_range_m, max_range_m, time_s);
+}
+
 RayHit RayScene::cast(const Eigen::Vector3d& origin_in_world, const Eigen::Vector3d& direction_in_world,
-                      double min_range_m, double max_range_m) const {
+                      double min_range_m, double max_range_m, double /*time_s*/) const {
   RayHit best;
   best.range_m = max_range_m;
   for (const AnalyticSurface& plane : impl_->infinite_planes) {

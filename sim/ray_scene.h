@@ -14,6 +14,23 @@ struct RayHit {
   int geom = -1;
 };
 
+class RayScene;
+
+/// The surfaces near a place: a part of a RayScene, which must outlive it.
+class RayWindow {
+ public:
+  static constexpr double kSlack_m = 10.0;
+
+  /// As RayScene::cast.
+  RayHit cast(const Eigen::Vector3d& origin_in_world, const Eigen::Vector3d& direction_in_world, double min_range_m,
+              double max_range_m, double time_s) const;
+
+ private:
+  friend class RayScene;
+  explicit RayWindow(const RayScene& scene) : scene_(&scene) {}
+  const RayScene* scene_;
+};
+
 /// The world's copy for ray casting, on Embree. Rays see every geom type as MuJoCo's mj_ray does; the rig body's geoms
 /// and geoms that are fully transparent are left out, as mj_ray leaves them out.
 class RayScene {
@@ -23,10 +40,16 @@ class RayScene {
   RayScene& operator=(RayScene&&) noexcept;
   ~RayScene();
 
-  /// The first surface along a ray within [min_range_m, max_range_m]. Safe to call from several threads at once.
+  /// What rays of at most reach_m, starting within RayWindow::kSlack_m of `place`, can hit. Sensors take one window a
+  /// sweep and cast through it: its cost, and a ray's, follow from what is near, not from the size of the world. Safe
+  /// to call from several threads at once; the same place and reach give the same hits, whatever was asked before.
+  RayWindow window(const Eigen::Vector3d& place, double reach_m) const;
+
+  /// The first surface along a ray within [min_range_m, max_range_m], with the movers where they are at `time_s`. Safe
+  /// to call from several threads at once.
   /// @param direction_in_world  unit length
   RayHit cast(const Eigen::Vector3d& origin_in_world, const Eigen::Vector3d& direction_in_world, double min_range_m,
-              double max_range_m) const;
+              double max_range_m, double time_s = 0.0) const;
 
   /// Distance from a point to the nearest surface, at most limit_m: the measure of a map's error.
   double distance_to_surface(const Eigen::Vector3d& point_in_world, double limit_m) const;

@@ -194,9 +194,9 @@ Renderer::Renderer(const World& world, const RenderView& view, const RendererOpt
 
 Renderer::~Renderer() = default;
 
-void Renderer::start(const Pose& world_from_camera, double light_factor) {
+void Renderer::start(const RenderMoment& moment) {
   impl_->gl.make_current();
-  impl_->draw(impl_->visible_chunks(world_from_camera), world_from_camera, light_factor);
+  impl_->draw(impl_->visible_chunks(moment.world_from_camera), moment.world_from_camera, moment.light_factor);
   impl_->gl.flush();
 }
 
@@ -207,8 +207,8 @@ const RadianceImage& Renderer::finish() {
   return impl_->image;
 }
 
-const RadianceImage& Renderer::render(const Pose& world_from_camera, double light_factor) {
-  start(world_from_camera, light_factor);
+const RadianceImage& Renderer::render(const RenderMoment& moment) {
+  start(moment);
   return finish();
 }
 

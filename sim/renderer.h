@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "estimator/geometry/pose.h"
+#include "sim/surroundings.h"
 #include "sim/world.h"
 
 namespace plumbline {
@@ -25,6 +26,7 @@ struct RadianceImage {
   int width = 0;
   int height = 0;
   std::vector<float> luminance;  ///< [cd/m^2]
+  std::vector<float> rgb;        ///< linear, three floats a pixel, Rec. 709 luminance as above; see RendererOptions
   std::vector<float> depth_m;    ///< along the optical axis; far_m where nothing is; see RendererOptions
 };
 
@@ -32,7 +34,17 @@ struct RendererOptions {
   /// llvmpipe's threads besides the caller's; the frames are the same whatever their number. Mesa reads it once per
   /// process: the first renderer decides for all that follow.
   int threads = 0;
-  bool depth = true;  ///< false leaves RadianceImage::depth_m empty and saves reading it back
+  bool depth = true;                  ///< false leaves RadianceImage::depth_m empty and saves reading it back
+  bool colour = false;                ///< also fills RadianceImage::rgb
+  const OwnBody* own_body = nullptr;  ///< drawn where world_from_body puts it; must outlive the renderer
+};
+
+/// What a frame, or a sub-frame of it, shows.
+struct RenderMoment {
+  Pose world_from_camera;     ///< optical frame (x right, y down, z forward)
+  Pose world_from_body;       ///< of the pack of sensors; places the own body
+  double light_factor = 1.0;  ///< multiplies all lamps, the ambient light, the sun and the sky
+  double time_s = 0.0;        ///< of the movers
 };
 
 /// Draws the world with OpenGL 4.5 core on OSMesa, headless, into a 32-bit float framebuffer. Surfaces are Lambertian:
@@ -49,14 +61,12 @@ class Renderer {
   Renderer& operator=(const Renderer&) = delete;
   ~Renderer();
 
-  /// @param world_from_camera  optical frame (x right, y down, z forward)
-  /// @param light_factor       multiplies all lamps, the ambient light and the sky
   /// The reference stays valid until the next call.
-  const RadianceImage& render(const Pose& world_from_camera, double light_factor);
+  const RadianceImage& render(const RenderMoment& moment);
 
   /// The two halves of render(). With RendererOptions::threads > 0, the picture is drawn by those threads while the
   /// caller does something else between start() and finish().
-  void start(const Pose& world_from_camera, double light_factor);
+  void start(const RenderMoment& moment);
   const RadianceImage& finish();
 
  private:

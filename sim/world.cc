@@ -142,6 +142,10 @@ double lamp_window(double distance_m, double reach_m) {
   return window * window;
 }
 
+Pose pose_of(const Mover& mover, double /*time_s*/) {
+  return {Eigen::Quaterniond::Identity(), mover.path.points.at(0)};
+}
+
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 World::~World() = default;
@@ -155,7 +159,11 @@ World World::from_scene(const SceneDescription& scene, std::uint64_t world_seed)
   world.material_of_geom_ = assign_materials(*world.model_, world.materials_);
   world.lamps_ = scene.lamps;
   world.ambient_lux_ = scene.ambient_lux;
+  world.sun_ = scene.sun;
   world.sky_luminance_ = scene.sky_luminance;
+  world.routes_ = scene.routes;
+  world.movers_ = scene.movers;
+  world.mover_of_geom_.assign(static_cast<std::size_t>(world.model_->ngeom), -1);
   world.seed_ = world_seed;
   return world;
 }
@@ -168,6 +176,7 @@ World World::from_mjcf_file(const std::filesystem::path& path, std::uint64_t wor
   world.materials_ = materials_of_mjcf(*world.model_);
   world.material_of_geom_ = assign_materials(*world.model_, world.materials_);
   world.lamps_ = lamps_of_mjcf(*world.model_, *world.data_);
+  world.mover_of_geom_.assign(static_cast<std::size_t>(world.model_->ngeom), -1);
   world.seed_ = world_seed;
   return world;
 }

@@ -1,24 +1,43 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "estimator/geometry/pose.h"
 #include "sim/mjcf_model.h"
 
 namespace plumbline {
 
 /// How a surface looks to the camera and to the lidar. A geom names its material by MJCF's material="…".
 struct Material {
-  enum class Pattern { kPlain, kConcrete, kBrick, kPanels, kSigns, kAsphalt };
+  enum class Pattern {
+    kPlain,
+    kConcrete,
+    kBrick,
+    kPanels,
+    kSigns,
+    kAsphalt,
+    kFacade,  ///< rows of windows
+    kGrass,
+    kFoliage,
+    kGravel,
+    kWood,
+    kFabric,            ///< carpet, upholstery
+    kStripesVertical,   ///< edges that tell a camera where it is along the wall, but not how high
+    kStripesHorizontal  ///< and the other way round
+  };
   std::string name;
   Pattern pattern = Pattern::kConcrete;
-  float albedo = 0.5F;              ///< mean diffuse reflectance, visible light [0, 1]
-  float contrast = 1.0F;            ///< 0: textureless, 1: the pattern's own contrast
-  float lidar_reflectivity = 0.5F;  ///< at 905 nm [0, 1]
+  float albedo = 0.5F;                             ///< mean diffuse reflectance, visible light [0, 1]
+  float contrast = 1.0F;                           ///< 0: textureless, 1: the pattern's own contrast
+  float lidar_reflectivity = 0.5F;                 ///< at 905 nm [0, 1]
+  Eigen::Vector3f tint = Eigen::Vector3f::Ones();  ///< colour: linear red, green, blue, each a factor on the albedo
 };
 
 /// A point lamp that shines into all directions.
@@ -38,13 +57,59 @@ struct LightStep {
   double factor = 1.0;
 };
 
+/// Parallel light.
+struct Sun {
+  Eigen::Vector3d direction_to_sun = Eigen::Vector3d::UnitZ();  ///< unit, world
+  double lux = 0.0;                                             ///< on a surface that faces it; 0: no sun
+};
+
+/// What is in the air. Visibility is the distance at which contrast falls to 2 % (Koschmieder: extinction = 3.912 / V).
+struct Atmosphere {
+  double fog_visibility_m = std::numeric_limits<double>::infinity();
+  double dust_visibility_m = std::numeric_limits<double>::infinity();  ///< coarse grains: single returns to a lidar
+  double rain_mm_per_h = 0.0;
+};
+
+/// Scenery of one material as triangles, counter-clockwise seen from outside. Scenes of thousands of parts hand over a
+/// few meshes, each within some 60 m, in place of as many geoms.
+struct SceneMesh {
+  std::string name;  ///< unique in the scene
+  std::string material;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< world; keeps the vertices precise far away
+  std::vector<Eigen::Vector3f> vertices;             ///< relative to origin, axes of the world [m]
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// A way through a scene that a vehicle or walker can take.
+struct Route {
+  std::string name;
+  std::vector<Eigen::Vector3d> points;  ///< on the ground, or in the air where flown; neighbours 0.5 m to 20 m apart
+  bool closed = false;                  ///< the last point leads to the first
+};
+
+/// A body of the scene's MJCF (mocap="true", child of the world, its geoms about its origin, x forward) that drives
+/// along a path at constant speed for ever: to the end and again from the start, or round and round.
+struct Mover {
+  std::string body;
+  Route path;
+  double speed_mps = 0.0;
+  double start_m = 0.0;  ///< where on the path it is at time 0
+};
+
+/// Where a mover is, x along its path.
+Pose pose_of(const Mover& mover, double time_s);
+
 /// What a procedural scene hands over. The MJCF holds geoms (and assets such as height fields and meshes) only.
 struct SceneDescription {
   std::string mjcf;
+  std::vector<SceneMesh> meshes;
   std::vector<Material> materials;
   std::vector<Lamp> lamps;
+  Sun sun;
   double ambient_lux = 30.0;   ///< illuminance that every surface gets from everywhere
   double sky_luminance = 0.0;  ///< of rays that hit nothing [cd/m^2]
+  std::vector<Route> routes;   ///< the first is the scene's own tour
+  std::vector<Mover> movers;
 };
 
 /// The simulated world: a compiled MuJoCo model with looks and lamps.
@@ -75,7 +140,15 @@ class World {
   int material_of(int geom) const { return material_of_geom_.at(static_cast<std::size_t>(geom)); }
   const std::vector<Lamp>& lamps() const { return lamps_; }
   double ambient_lux() const { return ambient_lux_; }
+  const Sun& sun() const { return sun_; }
   double sky_luminance() const { return sky_luminance_; }
+  const std::vector<Route>& routes() const { return routes_; }
+  const std::vector<Mover>& movers() const { return movers_; }
+  /// Index into movers() of the mover that a geom belongs to, or -1 for what stands still.
+  int mover_of(int geom) const { return mover_of_geom_.at(static_cast<std::size_t>(geom)); }
+
+  Atmosphere atmosphere;     ///< of the whole world; clear unless a scenario says otherwise
+  double rig_lamp_cd = 0.0;  ///< luminous intensity of a lamp on the rig, at the camera, shining ahead
   std::uint64_t seed() const { return seed_; }
 
   /// Scales lamps and ambient light so that a horizontal plate at the median lit place gets `lux`. The lit places are
@@ -92,8 +165,12 @@ class World {
   std::vector<Material> materials_;
   std::vector<int> material_of_geom_;
   std::vector<Lamp> lamps_;
+  Sun sun_;
   double ambient_lux_ = 30.0;
   double sky_luminance_ = 0.0;
+  std::vector<Route> routes_;
+  std::vector<Mover> movers_;
+  std::vector<int> mover_of_geom_;
   std::uint64_t seed_ = 0;
 };
 

@@ -54,7 +54,7 @@ void BM_Vlp16Scan(benchmark::State& state) {
     track.push(i * 5'000'000, Pose{Eigen::Quaterniond(1.0, 0.0, 0.0, 1e-3 * i).normalized(), {0.01 * i, 0.0, 1.5}});
   }
   std::int64_t index = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(lidar.scan(scene, world, track, 0, index++));
+  for (auto _ : state) benchmark::DoNotOptimize(lidar.scan({world, scene}, track, 0, index++));
   state.counters["seconds per simulated second"] = benchmark::Counter(
       static_cast<double>(state.iterations()) * 0.1, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }

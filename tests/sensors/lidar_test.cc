@@ -63,7 +63,8 @@ Lidar ideal_vlp16(const Pose& body_from_lidar = {}) {
 }
 
 LidarScan scan_at_rest(const Lidar& lidar, const World& world, std::int64_t scan_index = 0) {
-  return lidar.scan(RayScene(world), world, at_rest(), kStart_ns, scan_index);
+  const RayScene rays(world);
+  return lidar.scan({world, rays}, at_rest(), kStart_ns, scan_index);
 }
 
 struct Beam {

@@ -60,6 +60,13 @@ SceneDescription wall(const Material& material, double half_width = 40.0) {
   return boxes({{{0.5, 0.0, 0.0}, {0.5, half_width, 20.0}}}, material);
 }
 
+RenderMoment moment(const Pose& world_from_camera, double light_factor) {
+  RenderMoment shown;
+  shown.world_from_camera = world_from_camera;
+  shown.light_factor = light_factor;
+  return shown;
+}
+
 float pixel(const std::vector<float>& image, const RenderView& view, int u, int v) {
   return image[static_cast<std::size_t>(v * view.width + u)];
 }
@@ -91,7 +98,7 @@ std::vector<float> frame_from_child_process(int threads) {
   if (child == 0) {
     const World world = World::from_scene(crowded_room(), 1);
     Renderer renderer(world, view, {.threads = threads, .depth = false});
-    const auto& luminance = renderer.render(camera_at({0, 0, 0}, 0.1), 1.0).luminance;
+    const auto& luminance = renderer.render(moment(camera_at({0, 0, 0}, 0.1), 1.0)).luminance;
     std::size_t done = 0;
     const auto* bytes = reinterpret_cast<const char*>(luminance.data());
     while (done < luminance.size() * sizeof(float)) {
@@ -129,7 +136,7 @@ TEST(Renderer, EdgesAndDepthFollowThePinhole) {
   const World world = World::from_scene(boxes({box}, kGrey), 1);
   const RenderView view = wide_view();
   Renderer renderer(world, view);
-  const RadianceImage& image = renderer.render(camera_at({0, 0, 0}), 1.0);
+  const RadianceImage& image = renderer.render(moment(camera_at({0, 0, 0}), 1.0));
   // Of the front face, at 4.5 m; y is left, z is up.
   const double left = view.cx - view.fx * 0.9 / 4.5;
   const double right = view.cx + view.fx * 0.3 / 4.5;
@@ -156,7 +163,7 @@ TEST(Renderer, DepthOfAFloorIsExactFarFromTheOriginToo) {
   for (const double x : {0.0, 9000.0}) {
     const World world = World::from_scene(boxes({{{x, 0.0, -0.5}, {100.0, 100.0, 0.5}}}, kGrey), 1);
     Renderer renderer(world, view);
-    const RadianceImage& image = renderer.render(camera_at({x, 3.0, 1.5}), 1.0);
+    const RadianceImage& image = renderer.render(moment(camera_at({x, 3.0, 1.5}), 1.0));
     for (int v = 190; v < view.height; ++v) {
       const double depth = 1.5 * view.fy / (v - view.cy);
       for (int u = 0; u < view.width; u += 13) ASSERT_NEAR(pixel(image.depth_m, view, u, v), depth, 1e-3 * depth);
@@ -170,7 +177,7 @@ TEST(Renderer, AnInfinitePlaneReachesTheHorizon) {
   const World world = World::from_scene(scene, 1);
   const RenderView view = wide_view();
   Renderer renderer(world, view);
-  const RadianceImage& image = renderer.render(camera_at({0.0, 0.0, 1.5}), 1.0);
+  const RadianceImage& image = renderer.render(moment(camera_at({0.0, 0.0, 1.5}), 1.0));
   for (int v = 184; v < view.height; ++v) {
     const double depth = 1.5 * view.fy / (v - view.cy);
     ASSERT_NEAR(pixel(image.depth_m, view, 320, v), depth, 1e-3 * depth);
@@ -185,7 +192,7 @@ TEST(Renderer, LuminanceOfALitPlateFollowsLambertAndTheInverseSquare) {
     scene.lamps = {{.position = {-distance, 1.0, 0.5}, .intensity_cd = 300.0, .reach_m = 60.0}};
     const World world = World::from_scene(scene, 1);
     Renderer renderer(world, view);
-    const RadianceImage& image = renderer.render(camera_at({-5, 0, 0}), 0.7);
+    const RadianceImage& image = renderer.render(moment(camera_at({-5, 0, 0}), 0.7));
     for (int v = 10; v < view.height; v += 20) {
       for (int u = 10; u < view.width; u += 20) {
         const Eigen::Vector3d point(0.0, -5.0 * (u - view.cx) / view.fx, -5.0 * (v - view.cy) / view.fy);
@@ -206,11 +213,11 @@ TEST(Renderer, LampsAddUpAndDarknessIsBlack) {
   const World world = World::from_scene(scene, 1);
   const RenderView view = wide_view();
   Renderer renderer(world, view);
-  EXPECT_NEAR(pixel(renderer.render(camera_at({-5, 0, 0}), 1.0).luminance, view, 320, 180), 0.5 / kPi * 400.0 / 9.0,
-              0.1);
-  EXPECT_NEAR(pixel(renderer.render(camera_at({-5, 0, 0}, kPi), 1.0).luminance, view, 320, 180), 50.0, 1e-3);
+  EXPECT_NEAR(pixel(renderer.render(moment(camera_at({-5, 0, 0}), 1.0)).luminance, view, 320, 180),
+              0.5 / kPi * 400.0 / 9.0, 0.1);
+  EXPECT_NEAR(pixel(renderer.render(moment(camera_at({-5, 0, 0}, kPi), 1.0)).luminance, view, 320, 180), 50.0, 1e-3);
   for (const double yaw : {0.0, kPi}) {
-    EXPECT_THAT(renderer.render(camera_at({-5, 0, 0}, yaw), 0.0).luminance, ::testing::Each(0.0F));
+    EXPECT_THAT(renderer.render(moment(camera_at({-5, 0, 0}, yaw), 0.0)).luminance, ::testing::Each(0.0F));
   }
 }
 
@@ -220,7 +227,7 @@ TEST(Renderer, EveryPatternHasCornersAtEveryDistance) {
     const World world = World::from_scene(wall(Material{.name = "m", .pattern = pattern}), 1);
     Renderer renderer(world, wide_view(), {.threads = 0, .depth = false});
     for (const double distance : {1.0, 2.0, 5.0, 12.0, 20.0}) {
-      const cv::Mat1b image = grey_image(renderer.render(camera_at({-distance, 0, 0}), 1.0));
+      const cv::Mat1b image = grey_image(renderer.render(moment(camera_at({-distance, 0, 0}), 1.0)));
       cv::Mat1f strength;
       cv::cornerMinEigenVal(image, strength, 3);
       // At least 1e-4 is some ten times what the camera's noise makes of an even wall.
@@ -239,7 +246,7 @@ TEST(Renderer, NoContrastMeansNoTexture) {
   const World world =
       World::from_scene(wall(Material{.name = "m", .pattern = Pattern::kBrick, .albedo = 0.4F, .contrast = 0.0F}), 1);
   Renderer renderer(world, wide_view());
-  const auto& luminance = renderer.render(camera_at({-3, 0, 0}), 1.0).luminance;
+  const auto& luminance = renderer.render(moment(camera_at({-3, 0, 0}), 1.0)).luminance;
   EXPECT_THAT(luminance, ::testing::Each(::testing::FloatNear(0.4F / std::numbers::pi_v<float> * 100.0F, 0.01F)));
 }
 
@@ -248,10 +255,10 @@ TEST(Renderer, TwoPlacesOfAWallDoNotLookAlike) {
        {Pattern::kConcrete, Pattern::kBrick, Pattern::kPanels, Pattern::kSigns, Pattern::kAsphalt}) {
     const World world = World::from_scene(wall(Material{.name = "m", .pattern = pattern}), 1);
     Renderer renderer(world, wide_view());
-    const cv::Mat1b here = grey_image(renderer.render(camera_at({-3, 0, 0}), 1.0)).clone();
+    const cv::Mat1b here = grey_image(renderer.render(moment(camera_at({-3, 0, 0}), 1.0))).clone();
     // 10 m away, and one and two periods of the structure away, where only the wear differs.
     for (const double shift : {10.0, 5.12, 10.24}) {
-      const cv::Mat1b there = grey_image(renderer.render(camera_at({-3, shift, 0}), 1.0));
+      const cv::Mat1b there = grey_image(renderer.render(moment(camera_at({-3, shift, 0}), 1.0)));
       cv::Mat1f match;
       cv::matchTemplate(here, there, match, cv::TM_CCOEFF_NORMED);
       EXPECT_LT(match(0, 0), 0.75F) << "pattern " << static_cast<int>(pattern) << " at " << shift << " m";
@@ -262,8 +269,9 @@ TEST(Renderer, TwoPlacesOfAWallDoNotLookAlike) {
 /// Median and 90th percentile of what KLT gets wrong between two views of the wall at x = 0 [px].
 std::pair<double, double> tracking_error(Renderer& renderer, double distance, const Eigen::Vector3d& step) {
   const RenderView view = wide_view();
-  const cv::Mat1b first = grey_image(renderer.render(camera_at({-distance, 0, 0}), 1.0)).clone();
-  const cv::Mat1b second = grey_image(renderer.render(camera_at(Eigen::Vector3d(-distance, 0, 0) + step), 1.0)).clone();
+  const cv::Mat1b first = grey_image(renderer.render(moment(camera_at({-distance, 0, 0}), 1.0))).clone();
+  const cv::Mat1b second =
+      grey_image(renderer.render(moment(camera_at(Eigen::Vector3d(-distance, 0, 0) + step), 1.0))).clone();
   std::vector<cv::Point2f> corners;
   std::vector<cv::Point2f> tracked;
   std::vector<std::uint8_t> found;

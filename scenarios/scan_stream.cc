@@ -1,0 +1,30 @@
+#include "scenarios/scan_stream.h"
+
+namespace plumbline {
+
+ScanStream::ScanStream(const Scenario& scenario, const Surroundings& surroundings, const Trajectory& world_from_body)
+    : scenario_(scenario),
+      surroundings_(surroundings),
+      end_ns_(world_from_body.end_ns()),
+      driver_(surroundings.world, world_from_body),
+      lidar_(scenario.rig.lidar, scenario.rig.pack_from_lidar, scenario.seed) {
+  lidar_.noise_enabled = scenario.rig.lidar_noise;
+}
+
+std::unique_ptr<SensorMessage> ScanStream::next() {
+  const std::int64_t start_ns = scan_ * lidar_.period_ns();
+  const std::int64_t end_ns = start_ns + lidar_.period_ns();
+  if (end_ns > end_ns_) return nullptr;
+  auto message = timed_message([&] { return cast(start_ns, end_ns); }, end_ns);
+  scan_ += scenario_.rig.decimation;
+  return message;
+}
+
+LidarScan ScanStream::cast(std::int64_t start_ns, std::int64_t end_ns) {
+  driver_.advance_to(end_ns);
+  LidarScan scan = lidar_.scan(surroundings_, driver_.world_from_body(), start_ns, scan_);
+  driver_.forget_before(end_ns);
+  return scan;
+}
+
+}  // namespace plumbline

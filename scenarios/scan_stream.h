@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "scenarios/scenario.h"
+#include "scenarios/sensor_message.h"
+#include "sensors/lidar.h"
+#include "sim/rig_driver.h"
+#include "sim/surroundings.h"
+
+namespace plumbline {
+
+/// The lidar on the moving rig.
+class ScanStream {
+ public:
+  /// The arguments must outlive the stream.
+  ScanStream(const Scenario& scenario, const Surroundings& surroundings, const Trajectory& world_from_body);
+
+  /// The next scan; null after the motion's end.
+  std::unique_ptr<SensorMessage> next();
+
+ private:
+  LidarScan cast(std::int64_t start_ns, std::int64_t end_ns);
+
+  const Scenario& scenario_;
+  const Surroundings surroundings_;
+  const std::int64_t end_ns_;
+  RigDriver driver_;
+  Lidar lidar_;
+  std::int64_t scan_ = 0;  // index of the next one
+};
+
+}  // namespace plumbline

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "scenarios/session.h"
+
+namespace plumbline::testing {
+
+/// The body's motion in a scenario, for tests that need nothing else of its world.
+inline Trajectory body_trajectory(const Scenario& scenario) {
+  const World world = make_world(scenario);
+  return make_body_trajectory(scenario, world, RayScene(world));
+}
+
+}  // namespace plumbline::testing
