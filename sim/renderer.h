@@ -26,8 +26,8 @@ struct RadianceImage {
   int width = 0;
   int height = 0;
   std::vector<float> luminance;  ///< [cd/m^2]
-  std::vector<float> rgb;        ///< linear, three floats a pixel, Rec. 709 luminance as above; see RendererOptions
   std::vector<float> depth_m;    ///< along the optical axis; far_m where nothing is; see RendererOptions
+  std::vector<float> rgb;        ///< linear, three floats a pixel, Rec. 709 luminance as above; see RendererOptions
 };
 
 struct RendererOptions {

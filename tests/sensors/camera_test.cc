@@ -14,7 +14,9 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 RadianceImage even_image(const CameraModel& model, double luminance) {
-  RadianceImage image{model.width, model.height, {}, {}};
+  RadianceImage image;
+  image.width = model.width;
+  image.height = model.height;
   image.luminance.assign(static_cast<std::size_t>(model.width * model.height), static_cast<float>(luminance));
   return image;
 }

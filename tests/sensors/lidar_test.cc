@@ -146,7 +146,8 @@ TEST(Lidar, ReturnsOfAMovingRigLieOnTheWallsAtTheirOwnPoses) {
     world_from_body.translation += Eigen::Vector3d(5.0, -3.0, 1.0) * 5e-3;
     world_from_body.rotation = world_from_body.rotation * exp_so3(Eigen::Vector3d(1.0, -2.0, 4.0) * 5e-3);
   }
-  const LidarScan scan = ideal_vlp16(body_from_lidar).scan(RayScene(world), world, track, kStart_ns, 0);
+  const RayScene rays(world);
+  const LidarScan scan = ideal_vlp16(body_from_lidar).scan({world, rays}, track, kStart_ns, 0);
   ASSERT_EQ(scan.points.size(), static_cast<std::size_t>(kCycles * 16));
   double worst = 0.0;
   double worst_if_rigid = 0.0;
@@ -288,7 +289,7 @@ TEST(Lidar, RefusesAMotionThatDoesNotCoverTheRevolution) {
   PoseTrack track;
   track.push(kStart_ns, Pose{});
   track.push(kStart_ns + 50'000'000, Pose{});
-  EXPECT_THROW(ideal_vlp16().scan(RayScene(world), world, track, kStart_ns, 0), std::invalid_argument);
+  EXPECT_THROW(ideal_vlp16().scan({world, rays}, track, kStart_ns, 0), std::invalid_argument);
 }
 
 TEST(LidarModel, RefusesEachFieldOutOfRangeByName) {
