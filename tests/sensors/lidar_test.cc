@@ -289,6 +289,7 @@ TEST(Lidar, RefusesAMotionThatDoesNotCoverTheRevolution) {
   PoseTrack track;
   track.push(kStart_ns, Pose{});
   track.push(kStart_ns + 50'000'000, Pose{});
+  const RayScene rays(world);
   EXPECT_THROW(ideal_vlp16().scan({world, rays}, track, kStart_ns, 0), std::invalid_argument);
 }
 
