@@ -2,7 +2,7 @@
 
 #include "scenarios/session.h"
 
-namespace plumbline::testing {
+namespace plumbline {
 
 /// The body's motion in a scenario, for tests that need nothing else of its world.
 inline Trajectory body_trajectory(const Scenario& scenario) {
@@ -10,4 +10,4 @@ inline Trajectory body_trajectory(const Scenario& scenario) {
   return make_body_trajectory(scenario, world, RayScene(world));
 }
 
-}  // namespace plumbline::testing
+}  // namespace plumbline

@@ -37,7 +37,7 @@ EndError reintegrate(const Trajectory& trajectory, double rate_hz) {
 
 TEST(Reintegration, ErrorOverAMinuteOfFlightFallsWithTheSquareOfTheIntervalOrFaster) {
   const auto path = std::filesystem::path(PLUMBLINE_SCENARIO_DIR) / "aggressive_flight.yaml";
-  const Trajectory flight = testing::body_trajectory(load_scenario(path, {}, std::nullopt));
+  const Trajectory flight = body_trajectory(load_scenario(path, {}, std::nullopt));
   ASSERT_GE(flight.end_ns(), kEnd_ns);
   std::vector<EndError> errors;
   for (const double rate_hz : {100.0, 200.0, 400.0, 800.0}) errors.push_back(reintegrate(flight, rate_hz));

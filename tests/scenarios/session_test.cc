@@ -159,7 +159,7 @@ TEST_F(Session, KeepsTheTruthAndOneEstimatePerImuSample) {
   const Scenario scenario = load();
   RecordingEstimator estimator;
   const RunRecord record = run(scenario, 2, estimator);
-  const Trajectory truth = testing::body_trajectory(scenario);
+  const Trajectory truth = body_trajectory(scenario);
   EXPECT_EQ(record.ground_truth.size(), static_cast<std::size_t>(truth.end_ns() / 5'000'000));
   EXPECT_EQ(record.estimate.size(), record.ground_truth.size());
   EXPECT_EQ(record.odometry.size(), record.ground_truth.size());
@@ -177,7 +177,7 @@ TEST_F(Session, KeepsTheTruthAndOneEstimatePerImuSample) {
 
 TEST_F(Session, MovesThePackOnTheVehicle) {
   const Scenario scenario = load();
-  const Pose start = testing::body_trajectory(scenario).pose(0);
+  const Pose start = body_trajectory(scenario).pose(0);
   EXPECT_TRUE(start.translation.isApprox(Eigen::Vector3d(0, 0, 1.3), 1e-9));
   EXPECT_NEAR(rpy_from_rotation(start.rotation).y(), 5.0 * M_PI / 180.0, 1e-9);
 }
@@ -225,7 +225,7 @@ TEST_F(Session, EndsInOrderWhenItIsToldTo) {
 
 TEST_F(Session, RefusesAWorldAndAMotionThatCannotBe) {
   const Scenario standing = load({"motion.waypoints=[[0, 0, 1], [0, 0, 1]]"});
-  EXPECT_THAT([&] { testing::body_trajectory(standing); }, testing::ThrowsMessage<InputError>(HasSubstr("waypoints")));
+  EXPECT_THAT([&] { body_trajectory(standing); }, testing::ThrowsMessage<InputError>(HasSubstr("waypoints")));
   const Scenario broken = load();
   files_.write("room.xml", "<mujoco><worldbody><geom type='cube'/></worldbody></mujoco>");
   EXPECT_THAT([&] { make_world(broken); }, testing::ThrowsMessage<InputError>(HasSubstr("room.xml")));

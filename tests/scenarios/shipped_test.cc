@@ -32,7 +32,7 @@ struct Peaks {
 
 Peaks peaks_of(const std::string& name) {
   const auto path = std::filesystem::path(PLUMBLINE_SCENARIO_DIR) / (name + ".yaml");
-  const Trajectory trajectory = testing::body_trajectory(load_scenario(path, {}, {}));
+  const Trajectory trajectory = body_trajectory(load_scenario(path, {}, {}));
   Peaks peaks;
   peaks.duration_s = 1e-9 * static_cast<double>(trajectory.end_ns());
   constexpr std::int64_t kStep_ns = 5'000'000;
