@@ -181,6 +181,13 @@ World World::from_mjcf_file(const std::filesystem::path& path, std::uint64_t wor
   return world;
 }
 
+Pose World::initial_pose_of_mover(std::size_t mover) const {
+  const int body = mj_name2id(model_.get(), mjOBJ_BODY, movers_.at(mover).body.c_str());
+  if (body < 0) throw std::invalid_argument("scene: no body '" + movers_[mover].body + "' to move");
+  const mjtNum* q = data_->xquat + 4 * body;
+  return {Eigen::Quaterniond(q[0], q[1], q[2], q[3]), vector_at(data_->xpos, body)};
+}
+
 void World::set_light_level(double lux) {
   if (!std::isfinite(lux) || lux < 0.0) {
     throw std::invalid_argument("light level " + std::to_string(lux) + " lux: must be finite and not negative");

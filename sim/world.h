@@ -38,6 +38,7 @@ struct Material {
   float contrast = 1.0F;                           ///< 0: textureless, 1: the pattern's own contrast
   float lidar_reflectivity = 0.5F;                 ///< at 905 nm [0, 1]
   Eigen::Vector3f tint = Eigen::Vector3f::Ones();  ///< colour: linear red, green, blue, each a factor on the albedo
+  bool two_sided = false;                          ///< drawn from behind, too: leaves, not walls (rays see both sides)
 };
 
 /// A point lamp that shines into all directions.
@@ -146,6 +147,9 @@ class World {
   const std::vector<Mover>& movers() const { return movers_; }
   /// Index into movers() of the mover that a geom belongs to, or -1 for what stands still.
   int mover_of(int geom) const { return mover_of_geom_.at(static_cast<std::size_t>(geom)); }
+  int geom_count() const { return static_cast<int>(material_of_geom_.size()); }
+  /// Where the body of a mover stands in data(), as its geoms do.
+  Pose initial_pose_of_mover(std::size_t mover) const;
 
   Atmosphere atmosphere;     ///< of the whole world; clear unless a scenario says otherwise
   double rig_lamp_cd = 0.0;  ///< luminous intensity of a lamp on the rig, at the camera, shining ahead
