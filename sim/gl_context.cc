@@ -249,7 +249,7 @@ void GlContext::make_texture_array(int unit, int size, std::span<const std::vect
   gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
   gl.BindTexture(GL_TEXTURE_2D_ARRAY, texture);
   gl.TexStorage3D(GL_TEXTURE_2D_ARRAY, level_count, GL_R32F, size, size, static_cast<GLsizei>(layers.size()));
-  gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
   gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   for (std::size_t layer = 0; layer < layers.size(); ++layer) {
     for (GLint level = 0; level < level_count; ++level) {
