@@ -363,7 +363,7 @@ void Renderer::Impl::draw(const RenderMoment& shown) {
   forget_tiles_far_from(world_from_camera.translation);
   if (options.own_body != nullptr) draw_body(own_body, shown.world_from_body * options.own_body->body_from_vehicle);
   for (std::size_t i = 0; i < movers.size(); ++i) {
-    const Pose world_from_mover = pose_of(world.movers()[i], shown.time_s);
+    const Pose world_from_mover = world.pose_of_mover(i, shown.time_s);
     const double distance = (world_from_mover.translation - world_from_camera.translation).norm();
     if (distance < farthest_m + movers[i].radius_m) draw_body(movers[i], world_from_mover);
   }
