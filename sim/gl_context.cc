@@ -5,6 +5,7 @@
 #include <GL/glext.h>
 
 #include <cstdlib>
+#include <map>
 #include <stdexcept>
 
 namespace plumbline {
@@ -42,11 +43,14 @@ struct Functions {
   PFNGLUSEPROGRAMPROC UseProgram = load("glUseProgram");
   PFNGLGETUNIFORMLOCATIONPROC GetUniformLocation = load("glGetUniformLocation");
   PFNGLUNIFORM1FPROC Uniform1f = load("glUniform1f");
+  PFNGLUNIFORM4FPROC Uniform4f = load("glUniform4f");
   PFNGLUNIFORMMATRIX4FVPROC UniformMatrix4fv = load("glUniformMatrix4fv");
   PFNGLGENVERTEXARRAYSPROC GenVertexArrays = load("glGenVertexArrays");
   PFNGLBINDVERTEXARRAYPROC BindVertexArray = load("glBindVertexArray");
+  PFNGLDELETEVERTEXARRAYSPROC DeleteVertexArrays = load("glDeleteVertexArrays");
   PFNGLGENBUFFERSPROC GenBuffers = load("glGenBuffers");
   PFNGLBINDBUFFERPROC BindBuffer = load("glBindBuffer");
+  PFNGLDELETEBUFFERSPROC DeleteBuffers = load("glDeleteBuffers");
   PFNGLBUFFERDATAPROC BufferData = load("glBufferData");
   PFNGLENABLEVERTEXATTRIBARRAYPROC EnableVertexAttribArray = load("glEnableVertexAttribArray");
   PFNGLVERTEXATTRIBPOINTERPROC VertexAttribPointer = load("glVertexAttribPointer");
@@ -65,11 +69,13 @@ struct Functions {
   PFNGLCLIPCONTROLPROC ClipControl = load("glClipControl");
   PFNGLCLEARBUFFERFVPROC ClearBufferfv = load("glClearBufferfv");
   decltype(&::glGenTextures) GenTextures = load("glGenTextures");
+  decltype(&::glDeleteTextures) DeleteTextures = load("glDeleteTextures");
   decltype(&::glBindTexture) BindTexture = load("glBindTexture");
   decltype(&::glTexParameteri) TexParameteri = load("glTexParameteri");
   decltype(&::glPixelStorei) PixelStorei = load("glPixelStorei");
   decltype(&::glViewport) Viewport = load("glViewport");
   decltype(&::glEnable) Enable = load("glEnable");
+  decltype(&::glDisable) Disable = load("glDisable");
   decltype(&::glFrontFace) FrontFace = load("glFrontFace");
   decltype(&::glDepthFunc) DepthFunc = load("glDepthFunc");
   decltype(&::glDrawElements) DrawElements = load("glDrawElements");
@@ -99,8 +105,8 @@ OSMesaContext create_context(int threads) {
 }  // namespace
 
 struct GlContext::Impl {
-  Impl(int frame_width, int frame_height, int threads)
-      : width(frame_width), height(frame_height), context(create_context(threads)) {}
+  Impl(int frame_width, int frame_height, bool in_colour, int threads)
+      : width(frame_width), height(frame_height), colour(in_colour), context(create_context(threads)) {}
   ~Impl() { OSMesaDestroyContext(context); }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
@@ -111,10 +117,12 @@ struct GlContext::Impl {
 
   int width;
   int height;
+  bool colour;
   OSMesaContext context;
   Functions gl;
   // OSMesa insists on a window of its own; nothing is drawn there.
   std::array<std::uint8_t, 4 * 4 * 4> window{};
+  std::map<std::uint32_t, std::array<GLuint, 2>> buffers_of_mesh;
 };
 
 void GlContext::Impl::make_current() {
@@ -131,7 +139,7 @@ void GlContext::Impl::make_framebuffer() {
   gl.GenRenderbuffers(2, buffers);
   gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   gl.BindRenderbuffer(GL_RENDERBUFFER, buffers[0]);
-  gl.RenderbufferStorage(GL_RENDERBUFFER, GL_R32F, width, height);
+  gl.RenderbufferStorage(GL_RENDERBUFFER, colour ? GL_RGBA32F : GL_R32F, width, height);
   gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers[0]);
   gl.BindRenderbuffer(GL_RENDERBUFFER, buffers[1]);
   gl.RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, width, height);
@@ -163,7 +171,8 @@ GLuint GlContext::Impl::compile(GLenum kind, const std::string& source) {
   return shader;
 }
 
-GlContext::GlContext(int width, int height, int threads) : impl_(std::make_unique<Impl>(width, height, threads)) {
+GlContext::GlContext(int width, int height, bool colour, int threads)
+    : impl_(std::make_unique<Impl>(width, height, colour, threads)) {
   impl_->make_current();
   impl_->make_framebuffer();
 }
@@ -189,8 +198,14 @@ GlContext::Program GlContext::make_program(const std::string& vertex_shader, con
     gl.GetProgramInfoLog(program.handle, sizeof log, nullptr, log);
     throw std::runtime_error(std::string("a shader program does not link: ") + log);
   }
-  program.matrix = gl.GetUniformLocation(program.handle, "clip_from_chunk");
-  program.light = gl.GetUniformLocation(program.handle, "light_factor");
+  const auto location = [&](const char* name) { return gl.GetUniformLocation(program.handle, name); };
+  program.clip_from_chunk = location("clip_from_chunk");
+  program.camera_from_chunk = location("camera_from_chunk");
+  program.light_factor = location("light_factor");
+  program.fog = location("fog");
+  program.rig_lamp_cd = location("rig_lamp_cd");
+  program.sun = location("sun");
+  program.ambient_lux = location("ambient_lux");
   return program;
 }
 
@@ -198,10 +213,11 @@ std::uint32_t GlContext::make_mesh(std::span<const float> vertices, std::span<co
                                    std::span<const std::uint32_t> indices) {
   const Functions& gl = impl_->gl;
   GLuint mesh = 0;
-  GLuint buffers[2] = {};
+  std::array<GLuint, 2> buffers{};
   gl.GenVertexArrays(1, &mesh);
   gl.BindVertexArray(mesh);
-  gl.GenBuffers(2, buffers);
+  gl.GenBuffers(2, buffers.data());
+  impl_->buffers_of_mesh[mesh] = buffers;
   gl.BindBuffer(GL_ARRAY_BUFFER, buffers[0]);
   gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size_bytes()), vertices.data(), GL_STATIC_DRAW);
   gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers[1]);
@@ -218,6 +234,13 @@ std::uint32_t GlContext::make_mesh(std::span<const float> vertices, std::span<co
   return mesh;
 }
 
+void GlContext::delete_mesh(std::uint32_t mesh) {
+  const auto found = impl_->buffers_of_mesh.extract(mesh);
+  if (found.empty()) return;
+  impl_->gl.DeleteVertexArrays(1, &mesh);
+  impl_->gl.DeleteBuffers(2, found.mapped().data());
+}
+
 void GlContext::make_texture_array(int unit, int size, std::span<const std::vector<std::vector<float>>* const> layers) {
   const Functions& gl = impl_->gl;
   const auto level_count = static_cast<GLsizei>(layers.front()->size());
@@ -226,7 +249,7 @@ void GlContext::make_texture_array(int unit, int size, std::span<const std::vect
   gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
   gl.BindTexture(GL_TEXTURE_2D_ARRAY, texture);
   gl.TexStorage3D(GL_TEXTURE_2D_ARRAY, level_count, GL_R32F, size, size, static_cast<GLsizei>(layers.size()));
-  gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
   gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   for (std::size_t layer = 0; layer < layers.size(); ++layer) {
     for (GLint level = 0; level < level_count; ++level) {
@@ -237,35 +260,56 @@ void GlContext::make_texture_array(int unit, int size, std::span<const std::vect
   if (gl.GetError() != GL_NO_ERROR) throw std::runtime_error("OpenGL does not take the world's textures");
 }
 
-void GlContext::make_texture(int unit, int width, int height, std::span<const float> texels) {
+std::uint32_t GlContext::make_texture(int width, int height, std::span<const float> texels) {
   const Functions& gl = impl_->gl;
   GLuint texture = 0;
   gl.GenTextures(1, &texture);
-  gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
   gl.BindTexture(GL_TEXTURE_2D, texture);
   gl.TexStorage2D(GL_TEXTURE_2D, 1, GL_R32F, width, height);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RED, GL_FLOAT, texels.data());
   if (gl.GetError() != GL_NO_ERROR) throw std::runtime_error("OpenGL does not take the world's light map");
+  return texture;
 }
+
+void GlContext::bind_texture(int unit, std::uint32_t texture) {
+  impl_->gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  impl_->gl.BindTexture(GL_TEXTURE_2D, texture);
+}
+
+void GlContext::delete_texture(std::uint32_t texture) { impl_->gl.DeleteTextures(1, &texture); }
 
 void GlContext::flush() { impl_->gl.Flush(); }
 
-void GlContext::clear(float luminance) {
-  const GLfloat colour[4] = {luminance, 0.0F, 0.0F, 1.0F};
+void GlContext::clear(const std::array<float, 3>& background) {
+  const GLfloat colour[4] = {background[0], background[1], background[2], 1.0F};
   const GLfloat farthest = 0.0F;
   impl_->gl.ClearBufferfv(GL_COLOR, 0, colour);
   impl_->gl.ClearBufferfv(GL_DEPTH, 0, &farthest);
 }
 
-void GlContext::use(const Program& program, float light_factor) {
-  impl_->gl.UseProgram(program.handle);
-  impl_->gl.Uniform1f(program.light, light_factor);
+void GlContext::use(const Program& program) { impl_->gl.UseProgram(program.handle); }
+
+void GlContext::set(std::int32_t uniform, float value) { impl_->gl.Uniform1f(uniform, value); }
+
+void GlContext::set(std::int32_t uniform, const std::array<float, 4>& value) {
+  impl_->gl.Uniform4f(uniform, value[0], value[1], value[2], value[3]);
 }
 
-void GlContext::draw(const Program& program, std::uint32_t mesh, int index_count, const Matrix& clip_from_chunk) {
-  impl_->gl.UniformMatrix4fv(program.matrix, 1, GL_FALSE, clip_from_chunk.data());
+void GlContext::set(std::int32_t uniform, const Matrix& value) {
+  impl_->gl.UniformMatrix4fv(uniform, 1, GL_FALSE, value.data());
+}
+
+void GlContext::draw_both_sides(bool both) {
+  if (both) {
+    impl_->gl.Disable(GL_CULL_FACE);
+  } else {
+    impl_->gl.Enable(GL_CULL_FACE);
+  }
+}
+
+void GlContext::draw(std::uint32_t mesh, int index_count) {
   impl_->gl.BindVertexArray(mesh);
   impl_->gl.DrawElements(GL_TRIANGLES, index_count, GL_UNSIGNED_INT, nullptr);
 }
@@ -273,6 +317,11 @@ void GlContext::draw(const Program& program, std::uint32_t mesh, int index_count
 void GlContext::read_luminance(std::vector<float>& out) {
   out.resize(static_cast<std::size_t>(impl_->width) * static_cast<std::size_t>(impl_->height));
   impl_->gl.ReadPixels(0, 0, impl_->width, impl_->height, GL_RED, GL_FLOAT, out.data());
+}
+
+void GlContext::read_rgb(std::vector<float>& out) {
+  out.resize(3 * static_cast<std::size_t>(impl_->width) * static_cast<std::size_t>(impl_->height));
+  impl_->gl.ReadPixels(0, 0, impl_->width, impl_->height, GL_RGB, GL_FLOAT, out.data());
 }
 
 void GlContext::read_depth(std::vector<float>& out) {

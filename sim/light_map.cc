@@ -30,8 +30,7 @@ int rounded_up_to_power_of_two(int value) {
 
 }  // namespace
 
-LightMapBuilder::LightMapBuilder(const std::vector<Lamp>& lamps, double ambient_lux)
-    : lamps_(lamps), ambient_lux_(ambient_lux) {
+LightMapBuilder::LightMapBuilder(const std::vector<Lamp>& lamps) : lamps_(lamps) {
   // The first texel is for all that no lamp reaches.
   patches_.push_back({Eigen::Vector3d::Zero(),
                       Eigen::Vector3d::Zero(),
@@ -100,7 +99,7 @@ std::vector<Eigen::Vector2f> LightMapBuilder::add(const Polygon& piece, const Ei
 }
 
 double LightMapBuilder::illuminance(const Patch& patch, const Eigen::Vector3d& point) const {
-  double lux = ambient_lux_;
+  double lux = 0.0;
   for (const int index : patch.lamps) {
     const Lamp& lamp = lamps_[static_cast<std::size_t>(index)];
     const Eigen::Vector3d to_lamp = lamp.position - point;

@@ -9,8 +9,8 @@
 
 namespace plumbline {
 
-/// The illuminance [lux] of all surfaces, in one picture of bilinearly filtered texels: what stands still under lamps
-/// that stand still need not be lit anew, lamp by lamp, for every pixel of every frame.
+/// The illuminance [lux] by lamps of some surfaces, in one picture of bilinearly filtered texels: what stands still
+/// under lamps that stand still need not be lit anew, lamp by lamp, for every pixel of every frame.
 struct LightMap {
   int width = 0;
   int height = 0;
@@ -21,14 +21,16 @@ struct LightMap {
 /// so fine, down to 1/16 m, that filtering between them errs by some 0.5 % where a lamp is 0.8 m away or more.
 class LightMapBuilder {
  public:
-  /// Both must outlive the builder.
-  LightMapBuilder(const std::vector<Lamp>& lamps, double ambient_lux);
+  /// The lamps must outlive the builder.
+  explicit LightMapBuilder(const std::vector<Lamp>& lamps);
 
   /// Where each corner of a piece lies on the picture, in texels; texel (i, j) has its centre at (i + 0.5, j + 0.5).
   /// @param normal  unit, towards the lit side
   /// @param lamps   indices of those that reach the piece
   std::vector<Eigen::Vector2f> add(const Polygon& piece, const Eigen::Vector3d& normal, const std::vector<int>& lamps);
 
+  /// Whether any lamp shines on any piece.
+  bool lit() const { return patches_.size() > 1; }
   LightMap light() const;
 
  private:
@@ -53,7 +55,6 @@ class LightMapBuilder {
   double illuminance(const Patch& patch, const Eigen::Vector3d& point) const;
 
   const std::vector<Lamp>& lamps_;
-  double ambient_lux_ = 0.0;
   std::vector<Patch> patches_;
   std::map<int, Shelf> shelf_of_height_;
   int height_ = 0;

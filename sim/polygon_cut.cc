@@ -58,4 +58,11 @@ void cut_into_cells(const Polygon& polygon, double cell_m, const CellVisitor& vi
   cut_along(0, polygon, Eigen::Vector3i::Zero(), cell_m, visit);
 }
 
+void clip_to_plan(const Eigen::AlignedBox2d& plan, Polygon& polygon) {
+  for (int axis = 0; axis < 2; ++axis) {
+    polygon = split(polygon, axis, plan.min()[axis]).second;
+    polygon = split(polygon, axis, plan.max()[axis]).first;
+  }
+}
+
 }  // namespace plumbline

@@ -1,49 +1,30 @@
 #include "sim/ray_scene.h"
 
-#include <embree3/rtcore.h>
 #include <mujoco/mujoco.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
-#include <limits>
-#include <stdexcept>
-#include <string>
+#include <cmath>
+#include <list>
+#include <mutex>
+#include <utility>
 #include <vector>
 
-#include "sim/analytic_surfaces.h"
 #include "sim/geom_mesh.h"
-#include "sim/triangle_soup.h"
+#include "sim/mover_path.h"
+#include "sim/ray_surfaces.h"
+#include "sim/ray_tiles.h"
 
 namespace plumbline {
 namespace {
 
-// Embree works in float about the scene's centre. At 5 km from it a coordinate is off by 0.25 mm; boxes and query radii
-// are padded by more than that, so that nothing is missed, and what is found is computed again in double.
-constexpr double kFloatPadding_m = 1e-3;
+// A world no wider than this is one window: all of it, whatever is asked.
+constexpr double kWholeWorld_m = 400.0;
+// Windows reach in steps of this, so that sensors of different ranges share them.
+constexpr double kReachStep_m = 50.0;
+constexpr std::size_t kWindowsKept = 8;
 
-struct EmbreeRelease {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
-};
-using Device = std::unique_ptr<RTCDeviceTy, EmbreeRelease>;
-using Scene = std::unique_ptr<RTCSceneTy, EmbreeRelease>;
-using Geometry = std::unique_ptr<RTCGeometryTy, EmbreeRelease>;
-
-// Embree reports through a C callback, which must not throw: the first message is kept until throw_if_failed.
-class ErrorLog {
- public:
-  static void record(void* log, RTCError /*code*/, const char* message) {
-    auto& first = static_cast<ErrorLog*>(log)->message_;
-    if (first.empty()) first = message;
-  }
-  void throw_if_failed() const {
-    if (!message_.empty()) throw std::runtime_error("Embree: " + message_);
-  }
-
- private:
-  std::string message_;
-};
+using WindowKey = std::pair<RayTiles::Key, int>;  // the square, and how many steps it reaches
+constexpr WindowKey kEverything{{0, 0}, -1};
 
 // As mj_ray: a material's alpha, where there is one, stands instead of the geom's own.
 bool is_transparent(const mjModel& model, int geom) {
@@ -72,162 +53,139 @@ AnalyticSurface::Kind kind_of(int geom_type) {
   }
 }
 
-// The ray in double, handed through Embree to the analytic surfaces' callback.
-struct RayQuery : RTCIntersectContext {
-  Eigen::Vector3d origin_in_world;
-  Eigen::Vector3d direction_in_world;
+struct MovingThing {
+  MoverPath path;
+  SurfaceLists lists;  ///< in the mover's frame
+  std::unique_ptr<RaySurfaces> surfaces;
+  double radius_m = 0.0;  ///< about its origin
 };
 
-struct DistanceQuery {
-  const TriangleSoup& triangles;
-  const std::vector<AnalyticSurface>& surfaces;
-  unsigned triangle_geometry;
-  Eigen::Vector3d point_in_world;
-  double nearest_m;
-};
+double radius_of(const SurfaceLists& lists) {
+  double radius = 0.0;
+  for (const Eigen::Vector3d& vertex : lists.triangles.vertices()) radius = std::max(radius, vertex.norm());
+  for (const AnalyticSurface& surface : lists.bounded) {
+    const Eigen::AlignedBox3d box = bounds_in_world(surface);
+    radius = std::max(radius, box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).norm());
+  }
+  return radius;
+}
+
+bool ray_meets_ball(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, const Eigen::Vector3d& centre,
+                    double radius, double max_range_m) {
+  const Eigen::Vector3d to_centre = centre - origin;
+  const double along = std::clamp(to_centre.dot(direction), 0.0, max_range_m);
+  return (to_centre - along * direction).squaredNorm() <= radius * radius;
+}
 
 }  // namespace
 
 struct RayScene::Impl {
   explicit Impl(const World& world);
 
-  RayHit hit_of(const RTCRayHit& found, const RayQuery& query) const;
+  void add_geom(const World& world, int geom);
+  std::shared_ptr<const RaySurfaces> standing_near(const Eigen::Vector3d& place, double reach_m);
 
-  ErrorLog errors;
-  Device device;
-  Scene scene;
-  unsigned triangle_geometry = RTC_INVALID_GEOMETRY_ID;
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< origin of Embree's coordinates, in the world
-  TriangleSoup triangles;
-  std::vector<AnalyticSurface> surfaces;  ///< bounded
+  EmbreeDevice device;
+  SurfaceLists standing;
   std::vector<AnalyticSurface> infinite_planes;
+  std::vector<MovingThing> movers;  ///< as world.movers()
+  std::unique_ptr<RayTiles> tiles;
+  std::shared_ptr<const RaySurfaces> whole;  ///< of a small world
+  std::mutex mutex;
+  std::list<std::pair<WindowKey, std::shared_ptr<const RaySurfaces>>> kept;  ///< the one used last in front
+};
 
- private:
-  void add_geoms(const World& world);
-  void centre_on_geometry();
-  void attach_triangles();
-  void attach_surfaces();
-  void commit();
-
-  static void surface_bounds(const RTCBoundsFunctionArguments* arguments);
-  static void intersect_surface(const RTCIntersectFunctionNArguments* arguments);
+struct RayWindow::NearMover {
+  std::size_t mover = 0;
+  Eigen::Vector3d centre;  ///< at the window's time
+  double reach_m = 0.0;    ///< of its surfaces about there, within the window's slack
 };
 
 RayScene::Impl::Impl(const World& world) {
-  device.reset(rtcNewDevice(nullptr));
-  if (!device) throw std::runtime_error("Embree: no device, error " + std::to_string(rtcGetDeviceError(nullptr)));
-  rtcSetDeviceErrorFunction(device.get(), &ErrorLog::record, &errors);
-  scene.reset(rtcNewScene(device.get()));
-  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);  // no leaks along shared edges
-  add_geoms(world);
-  centre_on_geometry();
-  attach_triangles();
-  attach_surfaces();
-  commit();
+  for (const Mover& mover : world.movers()) movers.push_back({MoverPath(mover), {}, nullptr, 0.0});
+  for (int geom = 0; geom < world.model().ngeom; ++geom) {
+    if (world.model().geom_bodyid[geom] != world.rig_body() && !is_transparent(world.model(), geom)) {
+      add_geom(world, geom);
+    }
+  }
+  for (MovingThing& thing : movers) {
+    thing.surfaces = std::make_unique<RaySurfaces>(device, thing.lists, all_of(thing.lists));
+    thing.radius_m = radius_of(thing.lists);
+  }
+  tiles = std::make_unique<RayTiles>(standing);
+  const bool small = tiles->plan().isEmpty() || tiles->plan().sizes().maxCoeff() <= kWholeWorld_m;
+  if (small) whole = std::make_shared<const RaySurfaces>(device, standing, all_of(standing));
 }
 
-void RayScene::Impl::add_geoms(const World& world) {
+void RayScene::Impl::add_geom(const World& world, int geom) {
   constexpr double kUnused = 1.0;  // tolerance and extent, of types that do not come here
   const mjModel& model = world.model();
-  for (int geom = 0; geom < model.ngeom; ++geom) {
-    if (model.geom_bodyid[geom] == world.rig_body() || is_transparent(model, geom)) continue;
-    const Eigen::Vector3d position = Eigen::Map<const Eigen::Vector3d>(world.data().geom_xpos + 3L * geom);
-    const Eigen::Matrix3d rotation =
-        Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(world.data().geom_xmat + 9L * geom);
-    if (!is_analytic(model.geom_type[geom])) {
-      triangles.append(mesh_of_geom(model, geom, kUnused, kUnused), rotation, position, geom);
-      continue;
-    }
-    const AnalyticSurface surface{kind_of(model.geom_type[geom]),
-                                  Eigen::Map<const Eigen::Vector3d>(model.geom_size + 3L * geom), rotation, position,
-                                  geom};
-    (is_bounded(surface) ? surfaces : infinite_planes).push_back(surface);
+  Eigen::Vector3d position = Eigen::Map<const Eigen::Vector3d>(world.data().geom_xpos + 3L * geom);
+  Eigen::Matrix3d rotation =
+      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(world.data().geom_xmat + 9L * geom);
+  SurfaceLists* lists = &standing;
+  if (const int mover = world.mover_of(geom); mover >= 0) {
+    lists = &movers[static_cast<std::size_t>(mover)].lists;
+    const Pose mover_from_world = world.initial_pose_of_mover(static_cast<std::size_t>(mover)).inverse();
+    position = mover_from_world * position;
+    rotation = mover_from_world.rotation.toRotationMatrix() * rotation;
   }
-}
-
-void RayScene::Impl::centre_on_geometry() {
-  Eigen::AlignedBox3d bounds;
-  for (const Eigen::Vector3d& vertex : triangles.vertices()) bounds.extend(vertex);
-  for (const AnalyticSurface& surface : surfaces) bounds.extend(bounds_in_world(surface));
-  if (!bounds.isEmpty()) centre = bounds.center();
-}
-
-void RayScene::Impl::attach_triangles() {
-  if (triangles.triangles().empty()) return;
-  const Geometry geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-  auto* vertex = static_cast<Eigen::Vector3f*>(rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0,
-                                                                       RTC_FORMAT_FLOAT3, sizeof(Eigen::Vector3f),
-                                                                       triangles.vertices().size()));
-  auto* index = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0,
-                                                                    RTC_FORMAT_UINT3, sizeof(TriangleSoup::Triangle),
-                                                                    triangles.triangles().size()));
-  errors.throw_if_failed();
-  for (const Eigen::Vector3d& in_world : triangles.vertices()) *vertex++ = (in_world - centre).cast<float>();
-  for (const TriangleSoup::Triangle& triangle : triangles.triangles())
-    index = std::copy(triangle.begin(), triangle.end(), index);
-  rtcCommitGeometry(geometry.get());
-  triangle_geometry = rtcAttachGeometry(scene.get(), geometry.get());
-}
-
-void RayScene::Impl::attach_surfaces() {
-  if (surfaces.empty()) return;
-  const Geometry geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
-  rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(surfaces.size()));
-  rtcSetGeometryUserData(geometry.get(), this);
-  rtcSetGeometryBoundsFunction(geometry.get(), &Impl::surface_bounds, nullptr);
-  rtcSetGeometryIntersectFunction(geometry.get(), &Impl::intersect_surface);
-  rtcCommitGeometry(geometry.get());
-  rtcAttachGeometry(scene.get(), geometry.get());
-}
-
-// On one thread: the tree's order, which decides between surfaces at the same range, must not depend on the machine's
-// load. (Embree's own `threads=1` would bind the whole process for the device's life.)
-void RayScene::Impl::commit() {
-  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-  rtcCommitScene(scene.get());
-  errors.throw_if_failed();
-}
-
-void RayScene::Impl::surface_bounds(const RTCBoundsFunctionArguments* arguments) {
-  const Impl& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
-  const Eigen::AlignedBox3d box = bounds_in_world(self.surfaces[arguments->primID]);
-  const Eigen::Array3f lower = (box.min() - self.centre).array().cast<float>() - static_cast<float>(kFloatPadding_m);
-  const Eigen::Array3f upper = (box.max() - self.centre).array().cast<float>() + static_cast<float>(kFloatPadding_m);
-  RTCBounds& bounds = *arguments->bounds_o;
-  bounds.lower_x = lower.x();
-  bounds.lower_y = lower.y();
-  bounds.lower_z = lower.z();
-  bounds.upper_x = upper.x();
-  bounds.upper_y = upper.y();
-  bounds.upper_z = upper.z();
-}
-
-void RayScene::Impl::intersect_surface(const RTCIntersectFunctionNArguments* arguments) {
-  if (arguments->valid[0] == 0) return;  // one ray at a time: only rtcIntersect1 is called
-  const Impl& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
-  const auto& query = *static_cast<const RayQuery*>(arguments->context);
-  auto& found = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
-  const auto surface_hit = intersect(self.surfaces[arguments->primID], query.origin_in_world, query.direction_in_world,
-                                     found.ray.tnear, found.ray.tfar);
-  if (!surface_hit) return;
-  found.ray.tfar = static_cast<float>(surface_hit->range_m);
-  found.hit.geomID = arguments->geomID;
-  found.hit.primID = arguments->primID;
-}
-
-// What Embree found, in double.
-RayHit RayScene::Impl::hit_of(const RTCRayHit& found, const RayQuery& query) const {
-  const Eigen::Vector3d& origin = query.origin_in_world;
-  const Eigen::Vector3d& direction = query.direction_in_world;
-  const std::uint32_t primitive = found.hit.primID;
-  if (found.hit.geomID == triangle_geometry) {
-    return {true, triangles.refined_range(primitive, origin, direction, found.ray.tfar),
-            triangles.unit_normal(primitive).cast<float>(), triangles.geom_of(primitive)};
+  if (!is_analytic(model.geom_type[geom])) {
+    lists->triangles.append(mesh_of_geom(model, geom, kUnused, kUnused), rotation, position, geom);
+    return;
   }
-  const AnalyticSurface& surface = surfaces[primitive];
-  // The callback's answer was rounded to float; asking again without its upper limit gives the same crossing in full.
-  const auto hit = intersect(surface, origin, direction, found.ray.tnear, std::numeric_limits<double>::infinity());
-  return {true, hit->range_m, hit->normal_in_world.cast<float>(), surface.geom};
+  const AnalyticSurface surface{kind_of(model.geom_type[geom]),
+                                Eigen::Map<const Eigen::Vector3d>(model.geom_size + 3L * geom), rotation, position,
+                                geom};
+  (is_bounded(surface) ? lists->bounded : infinite_planes).push_back(surface);
+}
+
+std::shared_ptr<const RaySurfaces> RayScene::Impl::standing_near(const Eigen::Vector3d& place, double reach_m) {
+  if (whole) return whole;
+  const int steps = static_cast<int>(std::ceil(std::min(reach_m, 1e6) / kReachStep_m));
+  WindowKey key{RayTiles::key_at(place), steps};
+  if (tiles->all_within(key.first, steps * kReachStep_m)) key = kEverything;
+  const std::lock_guard lock(mutex);
+  const auto found = std::find_if(kept.begin(), kept.end(), [&](const auto& entry) { return entry.first == key; });
+  if (found != kept.end()) {
+    kept.splice(kept.begin(), kept, found);
+    return found->second;
+  }
+  kept.emplace_front(key, std::make_shared<const RaySurfaces>(device, standing,
+                                                              tiles->near(standing, key.first, steps * kReachStep_m)));
+  if (kept.size() > kWindowsKept) kept.pop_back();
+  return kept.front().second;
+}
+
+RayWindow::RayWindow() = default;
+RayWindow::RayWindow(const RayWindow&) = default;
+RayWindow& RayWindow::operator=(const RayWindow&) = default;
+RayWindow::~RayWindow() = default;
+
+RayHit RayWindow::cast(const Eigen::Vector3d& origin_in_world, const Eigen::Vector3d& direction_in_world,
+                       double min_range_m, double max_range_m, double time_s) const {
+  const RayScene::Impl& scene = *scene_->impl_;
+  RayHit best;
+  best.range_m = max_range_m;
+  for (const AnalyticSurface& plane : scene.infinite_planes) {
+    const auto hit = intersect(plane, origin_in_world, direction_in_world, min_range_m, best.range_m);
+    if (hit) best = {true, hit->range_m, hit->normal_in_world.cast<float>(), plane.geom};
+  }
+  standing_->cast(origin_in_world, direction_in_world, min_range_m, best);
+  for (const NearMover& near : movers_) {
+    if (!ray_meets_ball(origin_in_world, direction_in_world, near.centre, near.reach_m, best.range_m)) continue;
+    const Pose mover_from_world = scene.movers[near.mover].path.at(time_s).inverse();
+    RayHit on_mover = best;
+    on_mover.hit = false;
+    scene.movers[near.mover].surfaces->cast(mover_from_world * origin_in_world,
+                                            mover_from_world.rotation * direction_in_world, min_range_m, on_mover);
+    if (!on_mover.hit) continue;
+    best = on_mover;
+    best.normal_in_world = mover_from_world.rotation.conjugate().cast<float>() * best.normal_in_world;
+  }
+  if (!best.hit) return {};
+  if (best.normal_in_world.dot(direction_in_world.cast<float>()) > 0.0F) best.normal_in_world = -best.normal_in_world;
+  return best;
 }
 
 RayScene::RayScene(const World& world) : impl_(std::make_unique<Impl>(world)) {}
@@ -235,71 +193,31 @@ RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 RayScene::~RayScene() = default;
 
-RayWindow RayScene::window(const Eigen::Vector3d& /*place*/, double /*reach_m*/) const { return RayWindow(*this); }
-
-RayHit RayWindow::cast(const Eigen::Vector3d& origin_in_world, const Eigen::Vector3d& direction_in_world,
-                       double min_range_m, double max_range_m, double time_s) const {
-  return scene_->cast(origin_in_world, direction_in_world, min_range_m, max_range_m, time_s);
+RayWindow RayScene::window(const Eigen::Vector3d& place, double reach_m, double time_s) const {
+  RayWindow window;
+  window.scene_ = this;
+  window.standing_ = impl_->standing_near(place, reach_m + RayWindow::kSlack_m);
+  for (std::size_t i = 0; i < impl_->movers.size(); ++i) {
+    const MovingThing& thing = impl_->movers[i];
+    const Eigen::Vector3d centre = thing.path.at(time_s).translation;
+    const double reach = thing.radius_m + thing.path.speed_mps() * RayWindow::kSlack_s;
+    if ((centre - place).norm() <= reach_m + RayWindow::kSlack_m + reach) window.movers_.push_back({i, centre, reach});
+  }
+  return window;
 }
 
 RayHit RayScene::cast(const Eigen::Vector3d& origin_in_world, const Eigen::Vector3d& direction_in_world,
-                      double min_range_m, double max_range_m, double /*time_s*/) const {
-  RayHit best;
-  best.range_m = max_range_m;
-  for (const AnalyticSurface& plane : impl_->infinite_planes) {
-    const auto hit = intersect(plane, origin_in_world, direction_in_world, min_range_m, best.range_m);
-    if (hit) best = {true, hit->range_m, hit->normal_in_world.cast<float>(), plane.geom};
-  }
-
-  RayQuery query;
-  rtcInitIntersectContext(&query);
-  query.origin_in_world = origin_in_world;
-  query.direction_in_world = direction_in_world;
-  RTCRayHit found{};
-  const Eigen::Vector3f origin = (origin_in_world - impl_->centre).cast<float>();
-  const Eigen::Vector3f direction = direction_in_world.cast<float>();
-  found.ray = {origin.x(),
-               origin.y(),
-               origin.z(),
-               static_cast<float>(min_range_m),
-               direction.x(),
-               direction.y(),
-               direction.z(),
-               0.0F,
-               static_cast<float>(best.range_m),
-               ~0U,
-               0U,
-               0U};
-  found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(impl_->scene.get(), &query, &found);
-  if (found.hit.geomID != RTC_INVALID_GEOMETRY_ID) best = impl_->hit_of(found, query);
-
-  if (!best.hit) return {};
-  if (best.normal_in_world.dot(direction) > 0.0F) best.normal_in_world = -best.normal_in_world;
-  return best;
+                      double min_range_m, double max_range_m, double time_s) const {
+  return window(origin_in_world, max_range_m, time_s)
+      .cast(origin_in_world, direction_in_world, min_range_m, max_range_m, time_s);
 }
 
 double RayScene::distance_to_surface(const Eigen::Vector3d& point_in_world, double limit_m) const {
-  DistanceQuery query{impl_->triangles, impl_->surfaces, impl_->triangle_geometry, point_in_world, limit_m};
+  double nearest = limit_m;
   for (const AnalyticSurface& plane : impl_->infinite_planes) {
-    query.nearest_m = std::min(query.nearest_m, distance(plane, point_in_world));
+    nearest = std::min(nearest, distance(plane, point_in_world));
   }
-  const auto visit = [](RTCPointQueryFunctionArguments* arguments) {
-    auto& asked = *static_cast<DistanceQuery*>(arguments->userPtr);
-    const double here = arguments->geomID == asked.triangle_geometry
-                            ? asked.triangles.distance(arguments->primID, asked.point_in_world)
-                            : distance(asked.surfaces[arguments->primID], asked.point_in_world);
-    if (here >= asked.nearest_m) return false;
-    asked.nearest_m = here;
-    arguments->query->radius = static_cast<float>(here + kFloatPadding_m);
-    return true;  // the radius has shrunk
-  };
-  const Eigen::Vector3f point = (point_in_world - impl_->centre).cast<float>();
-  RTCPointQuery around{point.x(), point.y(), point.z(), 0.0F, static_cast<float>(query.nearest_m + kFloatPadding_m)};
-  RTCPointQueryContext context;
-  rtcInitPointQueryContext(&context);
-  rtcPointQuery(impl_->scene.get(), &around, &context, visit, &query);
-  return query.nearest_m;
+  return impl_->standing_near(point_in_world, limit_m)->distance(point_in_world, nearest);
 }
 
 }  // namespace plumbline

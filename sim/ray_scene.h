@@ -2,24 +2,22 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <vector>
 
+#include "sim/ray_hit.h"
 #include "sim/world.h"
 
 namespace plumbline {
 
-struct RayHit {
-  bool hit = false;
-  double range_m = 0.0;
-  Eigen::Vector3f normal_in_world = Eigen::Vector3f::Zero();  ///< unit, towards the side the ray came from
-  int geom = -1;
-};
-
+class RaySurfaces;
 class RayScene;
 
-/// The surfaces near a place: a part of a RayScene, which must outlive it.
+/// The surfaces near a place, at about one time: a part of a RayScene, which must outlive it.
 class RayWindow {
  public:
+  /// Rays may start this far from the window's place, and be cast this long before or after its time.
   static constexpr double kSlack_m = 10.0;
+  static constexpr double kSlack_s = 0.5;
 
   /// As RayScene::cast.
   RayHit cast(const Eigen::Vector3d& origin_in_world, const Eigen::Vector3d& direction_in_world, double min_range_m,
@@ -27,8 +25,17 @@ class RayWindow {
 
  private:
   friend class RayScene;
-  explicit RayWindow(const RayScene& scene) : scene_(&scene) {}
-  const RayScene* scene_;
+  struct NearMover;
+
+  const RayScene* scene_ = nullptr;
+  std::shared_ptr<const RaySurfaces> standing_;
+  std::vector<NearMover> movers_;
+
+ public:
+  RayWindow();
+  RayWindow(const RayWindow&);
+  RayWindow& operator=(const RayWindow&);
+  ~RayWindow();
 };
 
 /// The world's copy for ray casting, on Embree. Rays see every geom type as MuJoCo's mj_ray does; the rig body's geoms
@@ -42,19 +49,20 @@ class RayScene {
 
   /// What rays of at most reach_m, starting within RayWindow::kSlack_m of `place`, can hit. Sensors take one window a
   /// sweep and cast through it: its cost, and a ray's, follow from what is near, not from the size of the world. Safe
-  /// to call from several threads at once; the same place and reach give the same hits, whatever was asked before.
-  RayWindow window(const Eigen::Vector3d& place, double reach_m) const;
+  /// to call from several threads at once; the same arguments give the same hits, whatever was asked before.
+  RayWindow window(const Eigen::Vector3d& place, double reach_m, double time_s = 0.0) const;
 
   /// The first surface along a ray within [min_range_m, max_range_m], with the movers where they are at `time_s`. Safe
-  /// to call from several threads at once.
+  /// to call from several threads at once; many rays from about one place are cheaper through a window.
   /// @param direction_in_world  unit length
   RayHit cast(const Eigen::Vector3d& origin_in_world, const Eigen::Vector3d& direction_in_world, double min_range_m,
               double max_range_m, double time_s = 0.0) const;
 
-  /// Distance from a point to the nearest surface, at most limit_m: the measure of a map's error.
+  /// Distance from a point to the nearest surface that stands still, at most limit_m: the measure of a map's error.
   double distance_to_surface(const Eigen::Vector3d& point_in_world, double limit_m) const;
 
  private:
+  friend class RayWindow;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

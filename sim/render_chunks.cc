@@ -15,146 +15,211 @@ namespace plumbline {
 namespace {
 
 constexpr double kCell_m = 8.0;
+constexpr double kLargeCell_m = 4.0 * kCell_m;
 constexpr double kCurveTolerance_m = 0.005;
+const Eigen::Vector3f kRec709(0.2126F, 0.7152F, 0.0722F);
 
-/// As mj_ray sees it: a geom whose material, or colour where it has none, is fully transparent is not there.
-bool visible(const mjModel& model, int geom) {
-  const int material = model.geom_matid[geom];
-  return (material >= 0 ? model.mat_rgba[4 * material + 3] : model.geom_rgba[4 * geom + 3]) > 0.0F;
+Pose pose_of_geom(const World& world, int geom) {
+  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> rotation(world.data().geom_xmat + 9 * geom);
+  return {Eigen::Quaterniond(rotation), Eigen::Map<const Eigen::Vector3d>(world.data().geom_xpos + 3 * geom)};
 }
 
-std::vector<int> drawn_geoms(const World& world) {
-  std::vector<int> geoms;
-  for (int geom = 0; geom < world.model().ngeom; ++geom) {
-    if (visible(world.model(), geom) && world.model().geom_bodyid[geom] != world.rig_body()) geoms.push_back(geom);
+/// Visits the triangles of a geom where it stands.
+template <typename Visit>
+void for_each_triangle(const World& world, int geom, double plane_extent_m, Visit visit) {
+  const TriangleMesh mesh = mesh_of_geom(world.model(), geom, kCurveTolerance_m, plane_extent_m);
+  const Pose pose = pose_of_geom(world, geom);
+  const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
+  std::vector<Eigen::Vector3d> vertices;
+  vertices.reserve(mesh.vertices.size());
+  for (const Eigen::Vector3f& vertex : mesh.vertices) {
+    vertices.emplace_back(rotation * vertex.cast<double>() + pose.translation);
   }
-  return geoms;
+  for (const auto& corners : mesh.triangles) visit(vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]);
 }
 
-/// The half-width that an infinite plane needs to lie under everything else and view_distance_m more.
-double plane_extent(const World& world, const std::vector<int>& geoms, double view_distance_m) {
-  double extent = 0.0;
-  for (const int geom : geoms) {
-    const Eigen::Map<const Eigen::Vector3d> centre(world.data().geom_xpos + 3 * geom);
-    const double radius = std::max(world.model().geom_rbound[geom], 0.0);  // 0 for planes
-    extent = std::max(extent, centre.cwiseAbs().maxCoeff() + radius);
+/// What all vertices of one face share.
+struct Face {
+  Face(const World& world, int material_index, int layer, const Eigen::Vector3d& unit_normal,
+       const SurfaceMapping& surface)
+      : normal(unit_normal), mapping(surface.face(unit_normal)) {
+    const Material& material = world.materials()[static_cast<std::size_t>(material_index)];
+    two_sided = material.two_sided;
+    const double towards_sun = normal.dot(world.sun().direction_to_sun);
+    const double share = two_sided ? std::abs(towards_sun) : std::max(towards_sun, 0.0);
+    look = {material.albedo / std::numbers::pi_v<float>, material.contrast, static_cast<float>(layer),
+            static_cast<float>(world.ambient_lux() + world.sun().lux * share)};
+    Eigen::Map<Eigen::Vector3f>(tint.data()) = material.tint / material.tint.dot(kRec709);
   }
-  return 2.0 * extent + view_distance_m;
+
+  Eigen::Vector3d normal;
+  SurfaceMapping::Face mapping;
+  bool two_sided = false;
+  std::array<float, 4> look{};
+  std::array<float, 3> tint{};
+};
+
+std::uint32_t add_vertex(const Face& face, const Eigen::Vector3d& point, const Eigen::Vector2f& light,
+                         RenderChunk& chunk) {
+  // Whole tiles are taken away, the same ones all over the chunk, to keep float32 precise far from the origin.
+  const Eigen::Vector4d whole_tiles = face.mapping(chunk.origin).array().floor();
+  RenderVertex vertex;
+  Eigen::Map<Eigen::Vector3f>(vertex.position.data()) = (point - chunk.origin).cast<float>();
+  Eigen::Map<Eigen::Vector4f>(vertex.place.data()) = (face.mapping(point) - whole_tiles).cast<float>();
+  Eigen::Map<Eigen::Vector2f>(vertex.light.data()) = light;
+  Eigen::Map<Eigen::Vector3f>(vertex.normal.data()) = face.normal.cast<float>();
+  vertex.surface = face.look;
+  vertex.tint = face.tint;
+  chunk.bounds.extend(point);
+  chunk.vertices.push_back(vertex);
+  return static_cast<std::uint32_t>(chunk.vertices.size() - 1);
 }
 
-class ChunkBuilder {
+void add_fan(const Face& face, const Polygon& piece, const std::vector<Eigen::Vector2f>& light, RenderChunk& chunk) {
+  const auto first = static_cast<std::uint32_t>(chunk.vertices.size());
+  for (std::size_t i = 0; i < piece.size(); ++i) add_vertex(face, piece[i], light[i], chunk);
+  for (std::uint32_t i = 2; i < piece.size(); ++i) {
+    chunk.indices.insert(chunk.indices.end(), {first, first + i - 1, first + i});
+  }
+}
+
+class TileBuilder {
  public:
-  ChunkBuilder(const World& world, double extent_m) : world_(world), light_map_(world.lamps(), world.ambient_lux()) {
-    // At most some 64 by 64 large cells under an infinite plane.
-    while (large_cell_m_ * 32.0 < extent_m) large_cell_m_ *= 2.0;
-  }
+  explicit TileBuilder(const World& world) : world_(world), light_map_(world.lamps()) {}
 
-  void add_triangle(const Polygon& triangle, const SurfaceMapping& mapping, int layer, const Material& material) {
-    const Eigen::Vector3d normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
-    if (normal.squaredNorm() == 0.0) return;
-    face_ = {normal.normalized(),
-             mapping.face(normal.normalized()),
-             {material.albedo / std::numbers::pi_v<float>, material.contrast, static_cast<float>(layer)}};
-    cut_into_cells(triangle, large_cell_m_, [this](const Eigen::Vector3i& large_cell, const Polygon& piece) {
-      Cell& large = cell_at(large_cell, large_cell_m_);
-      if (large.lamps.empty()) return add_piece(piece, large);
-      cut_into_cells(piece, kCell_m, [this](const Eigen::Vector3i& cell, const Polygon& small_piece) {
-        add_piece(small_piece, cell_at(cell, kCell_m));
+  void add(const Polygon& piece, const Face& face) {
+    // Foliage: many triangles, each far smaller than a cell; one belongs where its first corner lies.
+    const bool small = (piece[1] - piece[0]).norm() + (piece[2] - piece[0]).norm() < kSmall_m && piece.size() == 3;
+    if (small) {
+      const Eigen::Vector3i at = (piece[0] / kLargeCell_m).array().floor().cast<int>();
+      if (lamps_at(at, kLargeCell_m).empty()) return add_piece(piece, face, cell_at(at, kLargeCell_m, face.two_sided));
+    }
+    cut_into_cells(piece, kLargeCell_m, [&](const Eigen::Vector3i& large, const Polygon& in_large) {
+      if (lamps_at(large, kLargeCell_m).empty()) {
+        return add_piece(in_large, face, cell_at(large, kLargeCell_m, face.two_sided));
+      }
+      cut_into_cells(in_large, kCell_m, [&](const Eigen::Vector3i& cell, const Polygon& in_cell) {
+        add_piece(in_cell, face, cell_at(cell, kCell_m, face.two_sided));
       });
     });
   }
 
-  RenderScene take() {
-    RenderScene scene;
+  RenderTile take() {
+    RenderTile tile;
     for (auto& [key, cell] : cells_) {
-      if (!cell.chunk.indices.empty()) scene.chunks.push_back(std::move(cell.chunk));
+      if (!cell.chunk.indices.empty()) tile.chunks.push_back(std::move(cell.chunk));
     }
-    scene.light_map = light_map_.light();
-    return scene;
+    if (light_map_.lit()) tile.light_map = light_map_.light();
+    return tile;
   }
 
  private:
-  struct Face {
-    Eigen::Vector3d normal;
-    SurfaceMapping::Face mapping;
-    std::array<float, 3> surface;
-  };
+  static constexpr double kSmall_m = 1.0;
+  using CellKey = std::tuple<double, int, int, int>;
 
   struct Cell {
     RenderChunk chunk;
-    std::vector<int> lamps;  // that reach it
+    const std::vector<int>* lamps = nullptr;
   };
 
-  Cell& cell_at(const Eigen::Vector3i& index, double cell_m) {
-    const auto [entry, is_new] = cells_.try_emplace({cell_m, index.x(), index.y(), index.z()});
-    Cell& cell = entry->second;
+  const std::vector<int>& lamps_at(const Eigen::Vector3i& index, double cell_m) {
+    const auto [entry, is_new] = lamps_.try_emplace({cell_m, index.x(), index.y(), index.z()});
     if (is_new) {
       const Eigen::Vector3d low = index.cast<double>() * cell_m;
-      cell.chunk.origin = low + Eigen::Vector3d::Constant(0.5 * cell_m);
-      cell.lamps = lamps_reaching({low, low + Eigen::Vector3d::Constant(cell_m)});
+      const Eigen::AlignedBox3d box(low, low + Eigen::Vector3d::Constant(cell_m));
+      for (std::size_t i = 0; i < world_.lamps().size(); ++i) {
+        const Lamp& lamp = world_.lamps()[i];
+        if (box.exteriorDistance(lamp.position) < lamp.reach_m) entry->second.push_back(static_cast<int>(i));
+      }
+    }
+    return entry->second;
+  }
+
+  Cell& cell_at(const Eigen::Vector3i& index, double cell_m, bool two_sided) {
+    const auto [entry, is_new] = cells_.try_emplace({cell_m, index.x(), index.y(), index.z(), two_sided});
+    Cell& cell = entry->second;
+    if (is_new) {
+      cell.chunk.origin = (index.cast<double>() + Eigen::Vector3d::Constant(0.5)) * cell_m;
+      cell.chunk.two_sided = two_sided;
+      cell.lamps = &lamps_at(index, cell_m);
+      cell.chunk.lit_by_lamps = !cell.lamps->empty();
     }
     return cell;
   }
 
-  std::vector<int> lamps_reaching(const Eigen::AlignedBox3d& box) const {
-    std::vector<int> reaching;
-    for (std::size_t i = 0; i < world_.lamps().size(); ++i) {
-      const Lamp& lamp = world_.lamps()[i];
-      if (box.exteriorDistance(lamp.position) < lamp.reach_m) reaching.push_back(static_cast<int>(i));
-    }
-    return reaching;
-  }
-
-  void add_piece(const Polygon& piece, Cell& cell) {
-    const std::vector<Eigen::Vector2f> light = light_map_.add(piece, face_.normal, cell.lamps);
-    std::vector<std::uint32_t> corners;
-    for (std::size_t i = 0; i < piece.size(); ++i) corners.push_back(add_vertex(piece[i], light[i], cell.chunk));
-    for (std::size_t i = 2; i < corners.size(); ++i) {
-      cell.chunk.indices.insert(cell.chunk.indices.end(), {corners[0], corners[i - 1], corners[i]});
-    }
-  }
-
-  std::uint32_t add_vertex(const Eigen::Vector3d& point, const Eigen::Vector2f& light, RenderChunk& chunk) const {
-    // Whole tiles are taken away, the same ones all over the chunk, to keep float32 precise far from the origin.
-    const Eigen::Vector4d whole_tiles = face_.mapping(chunk.origin).array().floor();
-    RenderVertex vertex;
-    Eigen::Map<Eigen::Vector3f>(vertex.position.data()) = (point - chunk.origin).cast<float>();
-    Eigen::Map<Eigen::Vector4f>(vertex.place.data()) = (face_.mapping(point) - whole_tiles).cast<float>();
-    Eigen::Map<Eigen::Vector2f>(vertex.light.data()) = light;
-    vertex.surface = face_.surface;
-    chunk.bounds.extend(point);
-    chunk.vertices.push_back(vertex);
-    return static_cast<std::uint32_t>(chunk.vertices.size() - 1);
+  void add_piece(const Polygon& piece, const Face& face, Cell& cell) {
+    add_fan(face, piece, light_map_.add(piece, face.normal, *cell.lamps), cell.chunk);
   }
 
   const World& world_;
-  double large_cell_m_ = 4.0 * kCell_m;
   LightMapBuilder light_map_;
-  Face face_;
-  std::map<std::tuple<double, int, int, int>, Cell> cells_;
+  std::map<CellKey, std::vector<int>> lamps_;
+  std::map<std::tuple<double, int, int, int, bool>, Cell> cells_;
 };
+
+Eigen::AlignedBox2d plan_of(const Polygon& polygon) {
+  Eigen::AlignedBox2d plan;
+  for (const Eigen::Vector3d& corner : polygon) plan.extend(Eigen::Vector2d(corner.head<2>()));
+  return plan;
+}
 
 }  // namespace
 
-RenderScene make_render_scene(const World& world, const std::vector<int>& layer_of_material, double view_distance_m) {
-  const std::vector<int> geoms = drawn_geoms(world);
-  const double extent_m = plane_extent(world, geoms, view_distance_m);
-  ChunkBuilder builder(world, extent_m);
+bool is_drawn(const World& world, int geom) {
+  const mjModel& model = world.model();
+  const int material = model.geom_matid[geom];
+  const float alpha = material >= 0 ? model.mat_rgba[4 * material + 3] : model.geom_rgba[4 * geom + 3];
+  return alpha > 0.0F && model.geom_bodyid[geom] != world.rig_body();
+}
+
+RenderTile make_render_tile(const World& world, const std::vector<int>& geoms, const Eigen::AlignedBox2d& plan,
+                            const std::vector<int>& layer_of_material) {
+  TileBuilder builder(world);
   for (const int geom : geoms) {
-    const auto material = static_cast<std::size_t>(world.material_of(geom));
-    const Eigen::Map<const Eigen::Vector3d> position(world.data().geom_xpos + 3 * geom);
-    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> rotation(world.data().geom_xmat + 9 * geom);
+    const int material = world.material_of(geom);
+    const int layer = layer_of_material[static_cast<std::size_t>(material)];
     const SurfaceMapping mapping(world.model(), geom, world.seed());
-    const TriangleMesh mesh = mesh_of_geom(world.model(), geom, kCurveTolerance_m, extent_m);
-    for (const auto& corners : mesh.triangles) {
-      Polygon triangle;
-      for (const std::uint32_t corner : corners) {
-        triangle.emplace_back(rotation * mesh.vertices[corner].cast<double>() + position);
-      }
-      builder.add_triangle(triangle, mapping, layer_of_material[material], world.materials()[material]);
-    }
+    const double reach_m =
+        (plan.center() - Eigen::Map<const Eigen::Vector2d>(world.data().geom_xpos + 3 * geom)).norm();
+    for_each_triangle(world, geom, 2.0 * (reach_m + plan.sizes().norm()),
+                      [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+                        const Eigen::Vector3d normal = (b - a).cross(c - a);
+                        if (normal.squaredNorm() == 0.0) return;
+                        Polygon piece{a, b, c};
+                        const Eigen::AlignedBox2d extent = plan_of(piece);
+                        if (!plan.intersects(extent)) return;
+                        if (!plan.contains(extent)) clip_to_plan(plan, piece);
+                        if (piece.size() < 3) return;
+                        builder.add(piece, Face(world, material, layer, normal.normalized(), mapping));
+                      });
   }
   return builder.take();
+}
+
+std::vector<RenderChunk> make_body_chunks(const World& world, const std::vector<int>& geoms,
+                                          const Pose& world_from_body, const std::vector<int>& layer_of_material) {
+  std::array<RenderChunk, 2> chunks;
+  chunks[1].two_sided = true;
+  const Pose body_from_world = world_from_body.inverse();
+  const std::vector<Eigen::Vector2f> unlit(3, Eigen::Vector2f::Zero());
+  for (const int geom : geoms) {
+    const int material = world.material_of(geom);
+    const int layer = layer_of_material[static_cast<std::size_t>(material)];
+    const SurfaceMapping mapping(world.model(), geom, world.seed());
+    for_each_triangle(world, geom, 1.0,
+                      [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+                        const Polygon piece{body_from_world * a, body_from_world * b, body_from_world * c};
+                        const Eigen::Vector3d normal = (piece[1] - piece[0]).cross(piece[2] - piece[0]);
+                        if (normal.squaredNorm() == 0.0) return;
+                        const Face face(world, material, layer, normal.normalized(), mapping);
+                        add_fan(face, piece, unlit, chunks[face.two_sided ? 1 : 0]);
+                      });
+  }
+  std::vector<RenderChunk> drawn;
+  for (RenderChunk& chunk : chunks) {
+    if (!chunk.indices.empty()) drawn.push_back(std::move(chunk));
+  }
+  return drawn;
 }
 
 }  // namespace plumbline

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
+#include <utility>
+
+#include "sim/mover_path.h"
 
 namespace plumbline {
 namespace {
@@ -155,10 +158,7 @@ double lamp_window(double distance_m, double reach_m) {
   return window * window;
 }
 
-Pose pose_of(const Mover& mover, double /*time_s*/) {
-  return {Eigen::Quaterniond::Identity(), mover.path.points.at(0)};
-}
-
+World::World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 World::~World() = default;
@@ -178,8 +178,7 @@ World World::from_scene(const SceneDescription& scene, std::uint64_t world_seed)
   world.sun_ = scene.sun;
   world.sky_luminance_ = scene.sky_luminance;
   world.routes_ = scene.routes;
-  world.movers_ = scene.movers;
-  world.mover_of_geom_.assign(static_cast<std::size_t>(world.model_->ngeom), -1);
+  world.set_movers(scene.movers);
   world.seed_ = world_seed;
   return world;
 }
@@ -192,10 +191,33 @@ World World::from_mjcf_file(const std::filesystem::path& path, std::uint64_t wor
   world.materials_ = materials_of_mjcf(*world.model_);
   world.material_of_geom_ = assign_materials(*world.model_, world.materials_);
   world.lamps_ = lamps_of_mjcf(*world.model_, *world.data_);
-  world.mover_of_geom_.assign(static_cast<std::size_t>(world.model_->ngeom), -1);
+  world.set_movers({});
   world.seed_ = world_seed;
   return world;
 }
+
+void World::set_movers(std::vector<Mover> movers) {
+  movers_ = std::move(movers);
+  mover_of_geom_.assign(static_cast<std::size_t>(model_->ngeom), -1);
+  for (std::size_t i = 0; i < movers_.size(); ++i) {
+    const int body = mj_name2id(model_.get(), mjOBJ_BODY, movers_[i].body.c_str());
+    if (body < 0 || model_->body_mocapid[body] < 0) {
+      throw std::invalid_argument("scene: mover '" + movers_[i].body + "' is not a mocap body of the scene");
+    }
+    mover_paths_.emplace_back(movers_[i]);
+    for (int geom = 0; geom < model_->ngeom; ++geom) {
+      if (model_->geom_bodyid[geom] == body) mover_of_geom_[static_cast<std::size_t>(geom)] = static_cast<int>(i);
+    }
+  }
+}
+
+Pose World::initial_pose_of_mover(std::size_t mover) const {
+  const int body = mj_name2id(model_.get(), mjOBJ_BODY, movers_.at(mover).body.c_str());
+  const mjtNum* q = data_->xquat + 4 * body;
+  return {Eigen::Quaterniond(q[0], q[1], q[2], q[3]), vector_at(data_->xpos, body)};
+}
+
+Pose World::pose_of_mover(std::size_t mover, double time_s) const { return mover_paths_.at(mover).at(time_s); }
 
 void World::set_light_level(double lux) {
   if (!std::isfinite(lux) || lux < 0.0) {

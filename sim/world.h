@@ -88,9 +88,6 @@ struct Mover {
   double start_m = 0.0;  ///< where on the path it is at time 0
 };
 
-/// Where a mover is, x along its path.
-Pose pose_of(const Mover& mover, double time_s);
-
 /// What a procedural scene hands over. The MJCF holds geoms (and assets such as height fields and meshes) only.
 struct SceneDescription {
   std::string mjcf;
@@ -103,6 +100,8 @@ struct SceneDescription {
   std::vector<Route> routes;   ///< the first is the scene's own tour
   std::vector<Mover> movers;
 };
+
+class MoverPath;
 
 /// The simulated world: a compiled MuJoCo model with looks and lamps.
 /// Every MJCF, procedural or a user's, gets a mocap body "plumbline_rig" that carries the sensors; it has no geoms.
@@ -138,6 +137,11 @@ class World {
   const std::vector<Mover>& movers() const { return movers_; }
   /// Index into movers() of the mover that a geom belongs to, or -1 for what stands still.
   int mover_of(int geom) const { return mover_of_geom_.at(static_cast<std::size_t>(geom)); }
+  int geom_count() const { return static_cast<int>(material_of_geom_.size()); }
+  /// Where the body of a mover stands in data(), as its geoms do.
+  Pose initial_pose_of_mover(std::size_t mover) const;
+  /// world_from_body of a mover, x along its path.
+  Pose pose_of_mover(std::size_t mover, double time_s) const;
 
   Atmosphere atmosphere;     ///< of the whole world; clear unless a scenario says otherwise
   double rig_lamp_cd = 0.0;  ///< luminous intensity of a lamp on the rig, at the camera, shining ahead
@@ -149,7 +153,8 @@ class World {
   void set_light_level(double lux);
 
  private:
-  World() = default;
+  World();
+  void set_movers(std::vector<Mover> movers);
 
   MjModelPtr model_;
   MjDataPtr data_;
@@ -162,6 +167,7 @@ class World {
   double sky_luminance_ = 0.0;
   std::vector<Route> routes_;
   std::vector<Mover> movers_;
+  std::vector<MoverPath> mover_paths_;
   std::vector<int> mover_of_geom_;
   std::uint64_t seed_ = 0;
 };

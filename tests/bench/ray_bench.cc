@@ -1,14 +1,21 @@
 // What the lidar costs: rays per second against the number of triangles, and a whole scan of the VLP-16.
 #include <benchmark/benchmark.h>
+#include <embree3/rtcore.h>
+#include <mujoco/mujoco.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "sensors/lidar.h"
+#include "sim/geom_mesh.h"
 #include "sim/random_stream.h"
 #include "sim/ray_scene.h"
+#include "sim/triangle_soup.h"
 
 namespace plumbline {
 namespace {
@@ -31,19 +38,98 @@ World corridor(int boxes) {
   return World::from_scene(scene, 1);
 }
 
-void BM_Cast(benchmark::State& state) {
-  const RayScene scene(corridor(static_cast<int>(state.range(0)) / 12));
+std::vector<Eigen::Vector3d> directions(std::size_t count) {
   RandomStream stream(2, "rays");
-  for (auto _ : state) {
+  std::vector<Eigen::Vector3d> all;
+  for (std::size_t i = 0; i < count; ++i) {
     const double azimuth = stream.uniform(0.0, 2.0 * std::numbers::pi);
     const double sine = stream.uniform(-0.26, 0.26);
     const double cosine = std::sqrt(1.0 - sine * sine);
-    benchmark::DoNotOptimize(
-        scene.cast({0, 0, 1.5}, {cosine * std::cos(azimuth), cosine * std::sin(azimuth), sine}, 0.0, 100.0));
+    all.emplace_back(cosine * std::cos(azimuth), cosine * std::sin(azimuth), sine);
   }
-  state.SetItemsProcessed(state.iterations());
+  return all;
 }
-BENCHMARK(BM_Cast)->ArgName("triangles")->Arg(1200)->Arg(24000)->Arg(120000);
+
+// The same triangles in a bare Embree scene of the same flags.
+class BareScene {
+ public:
+  explicit BareScene(const World& world) : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
+    TriangleSoup soup;
+    for (int geom = 0; geom < world.geom_count(); ++geom) {
+      const TriangleMesh mesh = mesh_of_geom(world.model(), geom, 0.01, 300.0);
+      soup.append(mesh,
+                  Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(world.data().geom_xmat + 9 * geom),
+                  Eigen::Map<const Eigen::Vector3d>(world.data().geom_xpos + 3 * geom), geom);
+    }
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertex = static_cast<Eigen::Vector3f*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, soup.vertices().size()));
+    auto* index = static_cast<TriangleSoup::Triangle*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, soup.triangles().size()));
+    for (const Eigen::Vector3d& v : soup.vertices()) *vertex++ = v.cast<float>();
+    std::copy(soup.triangles().begin(), soup.triangles().end(), index);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene_, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+    rtcCommitScene(scene_);
+  }
+  BareScene(const BareScene&) = delete;
+  BareScene& operator=(const BareScene&) = delete;
+  ~BareScene() {
+    rtcReleaseScene(scene_);
+    rtcReleaseDevice(device_);
+  }
+
+  float range(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit found;
+    found.ray = {origin.x(), origin.y(), origin.z(), 0.0F, direction.x(), direction.y(), direction.z(), 0.0F,
+                 100.0F,     ~0U,        0U,         0U};
+    found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene_, &context, &found);
+    return found.ray.tfar;
+  }
+
+ private:
+  RTCDevice device_;
+  RTCScene scene_;
+};
+
+template <typename Work>
+double seconds_of(Work work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Rays through a window, and the same rays through Embree alone, in turn.
+void BM_CastOverBareEmbree(benchmark::State& state) {
+  const World world = corridor(static_cast<int>(state.range(0)) / 12);
+  const RayScene scene(world);
+  const RayWindow window = scene.window({0, 0, 1.5}, 100.0);
+  const BareScene bare(world);
+  const std::vector<Eigen::Vector3d> rays = directions(100'000);
+  std::vector<Eigen::Vector3f> rays_f;
+  for (const Eigen::Vector3d& ray : rays) rays_f.push_back(ray.cast<float>());
+  double ours_s = 0.0;
+  double bare_s = 0.0;
+  for (auto _ : state) {
+    ours_s += seconds_of([&] {
+      for (const Eigen::Vector3d& ray : rays) benchmark::DoNotOptimize(window.cast({0, 0, 1.5}, ray, 0.0, 100.0, 0.0));
+    });
+    bare_s += seconds_of([&] {
+      for (const Eigen::Vector3f& ray : rays_f) benchmark::DoNotOptimize(bare.range({0, 0, 1.5F}, ray));
+    });
+  }
+  const double cast = static_cast<double>(state.iterations() * static_cast<std::int64_t>(rays.size()));
+  state.counters["rays_per_s"] = cast / ours_s;
+  state.counters["bare_rays_per_s"] = cast / bare_s;
+  state.counters["over_bare"] = bare_s / ours_s;
+}
+BENCHMARK(BM_CastOverBareEmbree)->ArgName("triangles")->Arg(1200)->Arg(24000)->Arg(120000)->Iterations(5);
 
 void BM_Vlp16Scan(benchmark::State& state) {
   const World world = corridor(static_cast<int>(state.range(0)) / 12);
