@@ -39,7 +39,7 @@ TEST_F(ScenarioFile, NeedsNothingButWayPoints) {
   EXPECT_EQ(scenario.seed, 1U);
   EXPECT_EQ(scenario.world.scene, "garage");
   EXPECT_EQ(scenario.estimator_name, "vloam");
-  EXPECT_EQ(scenario.rig.lidar.elevation_deg.size(), 16U);
+  EXPECT_EQ(scenario.rig.lidar.beams.size(), 16U);
   EXPECT_TRUE(scenario.rig.pack_from_lidar.translation.isApprox(Eigen::Vector3d(0, 0, 0.1)));
   EXPECT_TRUE(scenario.rig.pack_from_camera.translation.isApprox(Eigen::Vector3d(0.1, 0, 0)));
 }
@@ -87,7 +87,7 @@ expect: {status: ok, drift_percent: {max: 0.5}, progress_ratio: {min: 0.98, max:
   ASSERT_EQ(scenario.motion.waypoints.size(), 3U);
   EXPECT_EQ(scenario.motion.waypoints[1].speed_mps, 4.0);
   EXPECT_EQ(scenario.rig.decimation, 2);
-  EXPECT_FALSE(scenario.rig.lidar_noise);
+  EXPECT_FALSE(scenario.rig.lidar_effects.range_noise);
   EXPECT_TRUE(scenario.rig.camera_noise);
   EXPECT_EQ(scenario.rig.lidar.rate_hz, 5.0);
   EXPECT_EQ(scenario.rig.camera.width, 320);
