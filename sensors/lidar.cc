@@ -62,82 +62,94 @@ LidarScan Lidar::scan(const Surroundings& surroundings, const PoseTrack& world_f
   LidarCaster caster(surroundings, effects_.own_body ? surroundings.own_body : nullptr, world_from_body,
                      body_from_lidar_, pattern_, start_ns, model_.max_range_m);
   const LidarAir air(effects_.weather ? surroundings.world.atmosphere : Atmosphere{}, model_);
-  const Centres centres = cast_centres(cycles, caster);
 
   const std::vector<FiringPattern::Beam>& beams = pattern_.beams();
   const std::uint64_t key = mix_bits(seed_ ^ mix_bits(static_cast<std::uint64_t>(scan_index)));
   scan.points.reserve(cycles.size() * beams.size());
   LidarEchoes echoes;
-  for (std::size_t cycle = 0; cycle < cycles.size(); ++cycle) {
+  CastCycle before;
+  CastCycle at;
+  CastCycle after;
+  cast_centres(cycles.front(), caster, after);
+  for (std::size_t k = 0; k < cycles.size(); ++k) {
+    std::swap(before, at);
+    std::swap(at, after);
+    after.cycle = nullptr;
+    if (k + 1 < cycles.size()) cast_centres(cycles[k + 1], caster, after);
     for (std::size_t beam = 0; beam < beams.size(); ++beam) {
-      const Firing firing{cycle, beam, cycles[cycle].offset_ps + beams[beam].offset_ps};
-      if (firing.time_ps < 0 || firing.time_ps >= pattern_.message_ps()) continue;
-      const FiringNoise noise(mix_bits(key + cycle * beams.size() + beam));
+      if (!fires(cycles[k], beams[beam])) continue;
+      const Firing firing{before,
+                          at,
+                          after,
+                          beam,
+                          cycles[k].offset_ps + beams[beam].offset_ps,
+                          FiringNoise(mix_bits(key + k * beams.size() + beam))};
       echoes.clear();
-      find_echoes(centres, firing, air, noise, caster, echoes);
-      report(echoes, cycles[cycle], firing, noise, scan.points);
+      find_echoes(firing, air, caster, echoes);
+      report(echoes, firing, scan.points);
     }
   }
   return scan;
 }
 
-Lidar::Centres Lidar::cast_centres(const std::vector<FiringPattern::Cycle>& cycles, LidarCaster& caster) const {
-  const std::vector<FiringPattern::Beam>& beams = pattern_.beams();
-  Centres centres{cycles, std::vector<LidarHit>(cycles.size() * beams.size())};
-  LidarHit* hit = centres.hits.data();
-  for (const FiringPattern::Cycle& cycle : cycles) {
-    caster.turn_to(cycle);
-    for (const FiringPattern::Beam& beam : beams) {
-      const std::int64_t time_ps = cycle.offset_ps + beam.offset_ps;
-      const bool fires = time_ps >= 0 && time_ps < pattern_.message_ps();
-      if (fires) *hit = caster.cast({beam.origin_in_head, beam.direction_in_head}, time_ps);
-      ++hit;
-    }
-  }
-  return centres;
+bool Lidar::fires(const FiringPattern::Cycle& cycle, const FiringPattern::Beam& beam) const {
+  const std::int64_t time_ps = cycle.offset_ps + beam.offset_ps;
+  return time_ps >= 0 && time_ps < pattern_.message_ps();
 }
 
-void Lidar::find_echoes(const Centres& centres, const Firing& firing, const LidarAir& air, const FiringNoise& noise,
-                        LidarCaster& caster, LidarEchoes& echoes) const {
-  const LidarHit& centre = centres.hits[firing.cycle * pattern_.beams().size() + firing.beam];
-  if (effects_.mixed_pixels && meets_an_edge(centres, firing, caster)) {
-    add_sub_rays(firing, air, noise, caster, echoes);
+void Lidar::cast_centres(const FiringPattern::Cycle& cycle, LidarCaster& caster, CastCycle& cast) const {
+  const std::vector<FiringPattern::Beam>& beams = pattern_.beams();
+  cast.cycle = &cycle;
+  cast.motion = caster.motion_of(cycle);
+  cast.hits.assign(beams.size(), {});
+  for (std::size_t i = 0; i < beams.size(); ++i) {
+    if (!fires(cycle, beams[i])) continue;
+    const HeadRay ray{beams[i].origin_in_head, beams[i].direction_in_head};
+    cast.hits[i] = caster.cast(cast.motion, ray, cycle.offset_ps + beams[i].offset_ps);
+  }
+}
+
+void Lidar::find_echoes(const Firing& firing, const LidarAir& air, const LidarCaster& caster,
+                        LidarEchoes& echoes) const {
+  const LidarHit& centre = firing.at.hits[firing.beam];
+  if (effects_.mixed_pixels && meets_an_edge(firing, caster)) {
+    add_sub_rays(firing, air, caster, echoes);
   } else if (!centre.is_none()) {
     echoes.add(echo_of(centre, air));
   }
   if (air.is_clear()) return;
   double until_m = model_.max_range_m;
   for (const LidarEcho& echo : echoes) until_m = std::min(until_m, echo.range_m);
-  air.add_echoes(signal_, noise, until_m, echoes);
+  air.add_echoes(signal_, firing.noise, until_m, echoes);
 }
 
 // The centre rays around this one show where an edge may be near enough to matter; two rays at the beam's rim in that
 // direction tell. What is thinner than the beams' spacing and missed by all of them stays unseen.
-bool Lidar::meets_an_edge(const Centres& centres, const Firing& firing, LidarCaster& caster) const {
+bool Lidar::meets_an_edge(const Firing& firing, const LidarCaster& caster) const {
   const FiringPattern::Beam& beam = pattern_.beams()[firing.beam];
-  const std::size_t beams = pattern_.beams().size();
-  const LidarHit* centre = centres.hits.data() + firing.cycle * beams + firing.beam;
-  const auto differs_at = [&](const Eigen::Vector2d& place) {
-    caster.turn_to(centres.cycles[firing.cycle]);
-    return !centre->continues_in(caster.cast(footprint_.ray(beam, place), firing.time_ps));
+  const LidarHit& centre = firing.at.hits[firing.beam];
+  const auto goes_on = [&](const CastCycle& neighbour) {
+    return neighbour.cycle == nullptr || centre.continues_in(neighbour.hits[firing.beam]);
   };
-
-  const bool side_is_plane = (firing.cycle == 0 || centre->continues_in(*(centre - beams))) &&
-                             (firing.cycle + 1 == centres.cycles.size() || centre->continues_in(*(centre + beams)));
-  if (!side_is_plane && (differs_at({1.0, 0.0}) || differs_at({-1.0, 0.0}))) return true;
-
-  const LidarHit* first = centre - firing.beam;
+  const auto goes_on_in = [&](int neighbour) {
+    return neighbour < 0 || centre.continues_in(firing.at.hits[static_cast<std::size_t>(neighbour)]);
+  };
+  const auto differs_at = [&](double side, double up) {
+    const HeadRay rim = footprint_.ray(beam, {side, up});
+    return !centre.continues_in(caster.cast(firing.at.motion, rim, firing.time_ps));
+  };
+  const bool side_is_plane = goes_on(firing.before) && goes_on(firing.after);
+  if (!side_is_plane && (differs_at(1.0, 0.0) || differs_at(-1.0, 0.0))) return true;
   const bool is_alone = beam.above < 0 && beam.below < 0;
-  const bool column_is_plane = !is_alone && (beam.above < 0 || centre->continues_in(first[beam.above])) &&
-                               (beam.below < 0 || centre->continues_in(first[beam.below]));
-  return !column_is_plane && (differs_at({0.0, 1.0}) || differs_at({0.0, -1.0}));
+  const bool column_is_plane = !is_alone && goes_on_in(beam.above) && goes_on_in(beam.below);
+  return !column_is_plane && (differs_at(0.0, 1.0) || differs_at(0.0, -1.0));
 }
 
-void Lidar::add_sub_rays(const Firing& firing, const LidarAir& air, const FiringNoise& noise, const LidarCaster& caster,
+void Lidar::add_sub_rays(const Firing& firing, const LidarAir& air, const LidarCaster& caster,
                          LidarEchoes& echoes) const {
   const FiringPattern::Beam& beam = pattern_.beams()[firing.beam];
-  for (const Eigen::Vector2d& place : footprint_.places(noise.uniform(Source::kFootprint))) {
-    LidarHit hit = caster.cast(footprint_.ray(beam, place), firing.time_ps);
+  for (const Eigen::Vector2d& place : footprint_.places(firing.noise.uniform(Source::kFootprint))) {
+    LidarHit hit = caster.cast(firing.at.motion, footprint_.ray(beam, place), firing.time_ps);
     if (hit.is_none()) continue;
     hit.reflectivity /= LidarFootprint::kRays;
     LidarEcho echo = echo_of(hit, air);
@@ -151,7 +163,7 @@ LidarEcho Lidar::echo_of(const LidarHit& hit, const LidarAir& air) const {
   const double range_m = hit.range_m;
   const double transmission = air.is_clear() ? 1.0 : air.transmission(range_m);
   return {range_m, signal_.strength(range_m, double{hit.reflectivity} * double{hit.cos_incidence}, transmission),
-          signal_.spread_m(range_m, hit.cos_incidence)};
+          effects_.range_noise ? signal_.spread_m(range_m, hit.cos_incidence) : 0.0};
 }
 
 bool Lidar::is_detected(const LidarEcho& echo, unsigned index, const FiringNoise& noise) const {
@@ -159,14 +171,13 @@ bool Lidar::is_detected(const LidarEcho& echo, unsigned index, const FiringNoise
   return noise.uniform(Source::kDetection, index) < signal_.detection_probability(echo.strength);
 }
 
-void Lidar::report(const LidarEchoes& echoes, const FiringPattern::Cycle& cycle, const Firing& firing,
-                   const FiringNoise& noise, std::vector<LidarPoint>& points) const {
+void Lidar::report(const LidarEchoes& echoes, const Firing& firing, std::vector<LidarPoint>& points) const {
   const LidarEcho* strongest = nullptr;
   const LidarEcho* second = nullptr;
   const LidarEcho* last = nullptr;
   unsigned index = 0;
   for (const LidarEcho& echo : echoes) {
-    if (!is_detected(echo, index++, noise)) continue;
+    if (!is_detected(echo, index++, firing.noise)) continue;
     if (!strongest || echo.strength > strongest->strength) {
       second = std::exchange(strongest, &echo);
     } else if (!second || echo.strength > second->strength) {
@@ -175,19 +186,17 @@ void Lidar::report(const LidarEchoes& echoes, const FiringPattern::Cycle& cycle,
     if (!last || echo.range_m > last->range_m) last = &echo;
   }
   if (!strongest) return;
-  const auto add = [&](const LidarEcho& echo, Source source) {
-    add_point(echo, effects_.range_noise ? noise.gaussian(source) : 0.0, cycle, firing, points);
-  };
-  add(returns_ == LidarReturns::kLast ? *last : *strongest, Source::kRange);
+  add_point(returns_ == LidarReturns::kLast ? *last : *strongest, Source::kRange, firing, points);
   if (returns_ != LidarReturns::kDual) return;
   const LidarEcho* other = last == strongest ? second : last;
-  if (other) add(*other, Source::kSecondRange);
+  if (other) add_point(*other, Source::kSecondRange, firing, points);
 }
 
-void Lidar::add_point(const LidarEcho& echo, double noise, const FiringPattern::Cycle& cycle, const Firing& firing,
+void Lidar::add_point(const LidarEcho& echo, Source source, const Firing& firing,
                       std::vector<LidarPoint>& points) const {
   double range_m = echo.range_m + range_bias_m_[firing.beam];
-  if (effects_.range_noise) range_m += noise * signal_.range_sigma_m(echo.strength, echo.spread_m);
+  if (effects_.range_noise)
+    range_m += firing.noise.gaussian(source) * signal_.range_sigma_m(echo.strength, echo.spread_m);
   const double resolution_m = model_.range_resolution_m;
   if (effects_.quantisation && resolution_m > 0.0) range_m = resolution_m * std::round(range_m / resolution_m);
   if (range_m < model_.min_range_m || range_m > model_.max_range_m) return;
@@ -195,6 +204,7 @@ void Lidar::add_point(const LidarEcho& echo, double noise, const FiringPattern::
   const FiringPattern::Beam& beam = pattern_.beams()[firing.beam];
   const Eigen::Vector3d in_head = beam.origin_in_head + range_m * beam.direction_in_head;
   LidarPoint point;
+  const FiringPattern::Cycle& cycle = *firing.at.cycle;
   point.position = (cycle.reported_lidar_from_head * in_head).cast<float>();
   point.offset_ns = static_cast<std::int32_t>(nanoseconds(firing.time_ps));
   point.ring = static_cast<std::uint16_t>(beam.ring + cycle.first_ring);

@@ -62,28 +62,31 @@ class Lidar {
   std::int64_t period_ns() const { return message_period_ns(model_); }
 
  private:
-  /// The centre rays of a message, [cycle][beam].
-  struct Centres {
-    const std::vector<FiringPattern::Cycle>& cycles;
-    std::vector<LidarHit> hits;
+  /// A cycle of the head, and what its beams' centre rays meet.
+  struct CastCycle {
+    const FiringPattern::Cycle* cycle = nullptr;  ///< nullptr: none
+    HeadMotion motion;
+    std::vector<LidarHit> hits;  ///< per beam
   };
+  /// One laser's, among those around it in time.
   struct Firing {
-    std::size_t cycle = 0;
+    const CastCycle& before;
+    const CastCycle& at;
+    const CastCycle& after;
     std::size_t beam = 0;
     std::int64_t time_ps = 0;  ///< since the message's start
+    FiringNoise noise;
   };
 
-  Centres cast_centres(const std::vector<FiringPattern::Cycle>& cycles, LidarCaster& caster) const;
-  void find_echoes(const Centres& centres, const Firing& firing, const LidarAir& air, const FiringNoise& noise,
-                   LidarCaster& caster, LidarEchoes& echoes) const;
-  bool meets_an_edge(const Centres& centres, const Firing& firing, LidarCaster& caster) const;
-  void add_sub_rays(const Firing& firing, const LidarAir& air, const FiringNoise& noise, const LidarCaster& caster,
-                    LidarEchoes& echoes) const;
+  bool fires(const FiringPattern::Cycle& cycle, const FiringPattern::Beam& beam) const;
+  void cast_centres(const FiringPattern::Cycle& cycle, LidarCaster& caster, CastCycle& cast) const;
+  void find_echoes(const Firing& firing, const LidarAir& air, const LidarCaster& caster, LidarEchoes& echoes) const;
+  bool meets_an_edge(const Firing& firing, const LidarCaster& caster) const;
+  void add_sub_rays(const Firing& firing, const LidarAir& air, const LidarCaster& caster, LidarEchoes& echoes) const;
   LidarEcho echo_of(const LidarHit& hit, const LidarAir& air) const;
   bool is_detected(const LidarEcho& echo, unsigned index, const FiringNoise& noise) const;
-  void report(const LidarEchoes& echoes, const FiringPattern::Cycle& cycle, const Firing& firing,
-              const FiringNoise& noise, std::vector<LidarPoint>& points) const;
-  void add_point(const LidarEcho& echo, double noise, const FiringPattern::Cycle& cycle, const Firing& firing,
+  void report(const LidarEchoes& echoes, const Firing& firing, std::vector<LidarPoint>& points) const;
+  void add_point(const LidarEcho& echo, FiringNoise::Source source, const Firing& firing,
                  std::vector<LidarPoint>& points) const;
 
   LidarModel model_;

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <limits>
 
 #include "estimator/geometry/interpolation.h"
 #include "sensors/lidar_footprint.h"
@@ -24,6 +23,18 @@ struct LidarHit {
   bool continues_in(const LidarHit& other) const;
 };
 
+/// How the head moves during one cycle: linear in time between the cycle's ends, which over 0.1 ms is the geodesic to
+/// 1e-7 at 10 rad/s.
+struct HeadMotion {
+  std::int64_t begin_ps = 0;  ///< since the message's start
+  double per_ps = 0.0;        ///< 1 / duration
+  Eigen::Matrix3d rotation;   ///< world_from_head at the beginning
+  Eigen::Matrix3d rotation_change;
+  Eigen::Vector3d translation;
+  Eigen::Vector3d translation_change;
+  Eigen::Matrix3d vehicle_from_head;  ///< only with a vehicle in view
+};
+
 /// Casts the rays of one message, each from where the head is at the ray's own time.
 class LidarCaster {
  public:
@@ -32,10 +43,11 @@ class LidarCaster {
   LidarCaster(const Surroundings& surroundings, const OwnBody* own_body, const PoseTrack& world_from_body,
               const Pose& body_from_lidar, const FiringPattern& pattern, std::int64_t start_ns, double max_range_m);
 
-  /// The rays to come belong to this cycle. Costs nothing if those before did.
-  void turn_to(const FiringPattern::Cycle& cycle);
+  /// Cheapest for cycles in time order.
+  HeadMotion motion_of(const FiringPattern::Cycle& cycle);
+  /// @param motion  of the ray's cycle
   /// @param time_ps  since the message's start, within the cycle
-  LidarHit cast(const HeadRay& ray, std::int64_t time_ps) const;
+  LidarHit cast(const HeadMotion& motion, const HeadRay& ray, std::int64_t time_ps) const;
 
  private:
   struct Ray {
@@ -44,8 +56,8 @@ class LidarCaster {
   };
 
   Pose world_from_lidar(std::int64_t time_ps) const;
-  Ray in_world(const HeadRay& ray, double ratio) const;
   LidarHit hit_on(const World& world, const RayHit& hit, const Ray& ray) const;
+  LidarHit hit_on_vehicle(const HeadMotion& motion, const HeadRay& ray, double max_range_m) const;
 
   const Surroundings& surroundings_;
   const OwnBody* own_body_;
@@ -58,18 +70,8 @@ class LidarCaster {
   const Eigen::Vector3d place_;  ///< of the lidar as the message starts
   const RayWindow window_;
   Pose vehicle_from_lidar_;
-
-  // Of the cycle: between its two ends both are linear in time, which over 0.1 ms is the geodesic to 1e-7 at 10 rad/s.
-  std::int64_t cycle_offset_ps_ = std::numeric_limits<std::int64_t>::min();
-  std::int64_t begin_ps_ = 0;
-  std::int64_t end_ps_ = -1;
-  double per_ps_ = 0.0;
+  std::int64_t end_ps_ = -1;  ///< of the last cycle asked for
   Pose world_from_lidar_at_end_;
-  Eigen::Matrix3d rotation_;  ///< world_from_head
-  Eigen::Matrix3d rotation_change_;
-  Eigen::Vector3d translation_;
-  Eigen::Vector3d translation_change_;
-  Eigen::Matrix3d vehicle_from_head_;
 };
 
 }  // namespace plumbline
