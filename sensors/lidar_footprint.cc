@@ -14,11 +14,14 @@ constexpr double kGoldenAngle = std::numbers::pi * 2.0 * (2.0 - std::numbers::ph
 LidarFootprint::LidarFootprint(const LidarModel& model)
     : half_exit_m_(0.5 * model.exit_width_m, 0.5 * model.exit_height_m),
       half_divergence_rad_(0.5 * model.divergence_horizontal_rad, 0.5 * model.divergence_vertical_rad) {
-  for (int i = 0; i < kRays; ++i) {
-    // The energy within a radius of r half widths is 1 - exp(-2 r^2).
-    const double radius = std::sqrt(-0.5 * std::log(1.0 - (i + 0.5) / kRays));
-    spiral_[static_cast<std::size_t>(i)] =
-        radius * Eigen::Vector2d(std::cos(i * kGoldenAngle), std::sin(i * kGoldenAngle));
+  for (int shift = 0; shift < kShifts; ++shift) {
+    for (int i = 0; i < kRays; ++i) {
+      // The energy within a radius of r half widths is 1 - exp(-2 r^2).
+      const double energy = (i + (shift + 0.5) / kShifts) / kRays;
+      const double radius = std::sqrt(-0.5 * std::log(1.0 - energy));
+      spirals_[static_cast<std::size_t>(shift)][static_cast<std::size_t>(i)] =
+          radius * Eigen::Vector2d(std::cos(i * kGoldenAngle), std::sin(i * kGoldenAngle));
+    }
   }
 }
 
@@ -29,10 +32,12 @@ HeadRay LidarFootprint::ray(const FiringPattern::Beam& beam, const Eigen::Vector
           (beam.direction_in_head + tilt.x() * beam.side_in_head + tilt.y() * beam.up_in_head).normalized()};
 }
 
-std::array<Eigen::Vector2d, LidarFootprint::kRays> LidarFootprint::places(double turn) const {
+LidarFootprint::Places LidarFootprint::places(double draw) const {
+  const double shift = std::floor(draw * kShifts);
+  const double turn = draw * kShifts - shift;
+  Places places = spirals_[static_cast<std::size_t>(shift)];
   const Eigen::Matrix2d rotation = Eigen::Rotation2Dd(2.0 * std::numbers::pi * turn).toRotationMatrix();
-  std::array<Eigen::Vector2d, kRays> places;
-  for (std::size_t i = 0; i < places.size(); ++i) places[i] = rotation * spiral_[i];
+  for (Eigen::Vector2d& place : places) place = rotation * place;
   return places;
 }
 

@@ -23,14 +23,19 @@ class LidarFootprint {
   explicit LidarFootprint(const LidarModel& model);
 
   HeadRay ray(const FiringPattern::Beam& beam, const Eigen::Vector2d& place) const;
-  /// Where the sub-rays are: a spiral of equal shares of the energy.
-  /// @param turn  of the spiral as a whole, [0, 1)
-  std::array<Eigen::Vector2d, kRays> places(double turn) const;
+  using Places = std::array<Eigen::Vector2d, kRays>;
+
+  /// Where the sub-rays are: a spiral through equal shares of the energy, turned and shifted along itself by chance, so
+  /// that over many firings every place counts as the Gaussian has it.
+  /// @param draw  (0, 1)
+  Places places(double draw) const;
 
  private:
+  static constexpr int kShifts = 16;
+
   Eigen::Vector2d half_exit_m_;
   Eigen::Vector2d half_divergence_rad_;
-  std::array<Eigen::Vector2d, kRays> spiral_;
+  std::array<Places, kShifts> spirals_;
 };
 
 }  // namespace plumbline

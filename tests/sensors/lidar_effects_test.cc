@@ -210,7 +210,6 @@ TEST(LidarEffects, NoiseDropOutAndMixedPixelsAreThoseOfTheModel) {
                                                  {"mixed pixels", chance_of_mixed_pixels()}};
   // Bonferroni: with as many checks, one of them falls below this by chance once in a hundred times.
   for (const auto& [check, chance] : chances) {
-    std::cout << check << " " << chance << "\n";
     EXPECT_GE(chance, 0.01 / static_cast<double>(chances.size())) << check;
   }
 }
