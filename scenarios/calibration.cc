@@ -1,7 +1,5 @@
 #include "scenarios/calibration.h"
 
-#include <cmath>
-
 namespace plumbline {
 
 Calibration calibration_of(const RigConfig& rig) {
@@ -16,9 +14,9 @@ Calibration calibration_of(const RigConfig& rig) {
   calibration.camera_rate_hz = rig.camera.rate_hz / rig.decimation;
 
   calibration.body_from_lidar = rig.pack_from_lidar;
-  calibration.lidar_rings = static_cast<int>(rig.lidar.elevation_deg.size());
-  calibration.lidar_rate_hz = rig.lidar.rate_hz / rig.decimation;
-  calibration.lidar_range_sigma_m = std::hypot(rig.lidar.range_sigma_m, rig.lidar.ring_bias_sigma_m);
+  calibration.lidar_rings = ring_count(rig.lidar);
+  calibration.lidar_rate_hz = rig.lidar.rate_hz / messages_per_sweep(rig.lidar) / rig.decimation;  // sweeps
+  calibration.lidar_range_sigma_m = rig.lidar.accuracy_sigma_m;
   calibration.lidar_min_range_m = rig.lidar.min_range_m;
   calibration.lidar_max_range_m = rig.lidar.max_range_m;
   return calibration;

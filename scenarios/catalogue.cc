@@ -2,19 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <functional>
 
-#include "scenarios/config_reader.h"
+#include "scenarios/catalogue_file.h"
 #include "scenarios/input_error.h"
 #include "scenarios/yaml_reader.h"
 
 namespace plumbline {
 namespace {
-
-constexpr double kMicro = 1e-6;
-constexpr double kMilli = 1e-3;
-constexpr double kDegree = M_PI / 180.0;
-constexpr double kMicroG = 9.80665e-6;
 
 std::filesystem::path catalogue_directory() { return PLUMBLINE_CATALOGUE_DIR; }
 
@@ -26,6 +20,8 @@ CatalogueEntry read_header(ConfigReader& reader, const std::string& name) {
   return entry;
 }
 
+}  // namespace
+
 void read_device(const std::string& name, const std::string& kind,
                  const std::function<void(ConfigReader&)>& read_keys) {
   const std::filesystem::path path = catalogue_directory() / (name + ".yaml");
@@ -36,7 +32,6 @@ void read_device(const std::string& name, const std::string& kind,
   reader.finish();
 }
 
-/// The conversion from a file's unit, which stands in the key, to SI.
 void read_scaled(ConfigReader& reader, const std::string& key, double unit, double& value, Range range) {
   double in_unit = 0.0;
   if (reader.read(key, in_unit, range)) value = in_unit * unit;
@@ -46,8 +41,6 @@ void read_scaled(ConfigReader& reader, const std::string& key, double unit, std:
   if (!reader.read(key, values, range)) return;
   for (double& value : values) value *= unit;
 }
-
-}  // namespace
 
 std::vector<CatalogueEntry> sensor_catalogue() {
   std::vector<CatalogueEntry> entries;
@@ -67,25 +60,6 @@ std::vector<std::string> catalogue_names(const std::string& kind) {
     if (entry.kind == kind) names.push_back(entry.name);
   }
   return names;
-}
-
-LidarModel catalogue_lidar(const std::string& name) {
-  LidarModel model;
-  model.name = name;
-  read_device(name, "lidar", [&](ConfigReader& reader) {
-    reader.read("elevation_deg", model.elevation_deg, {-90.0, 90.0});
-    read_scaled(reader, "vertical_offset_mm", kMilli, model.vertical_offset_m, {-1000.0, 1000.0});
-    read_scaled(reader, "laser_offset_us", kMicro, model.laser_offset_s, {0.0, 1000.0});
-    read_scaled(reader, "cycle_us", kMicro, model.cycle_s, {1.0, 1000.0});
-    reader.read("rate_hz", model.rate_hz, {1.0, 100.0});
-    reader.read("min_range_m", model.min_range_m, {0.01, 10.0});
-    reader.read("max_range_m", model.max_range_m, {1.0, 1000.0});
-    reader.read("range_at_10_percent_m", model.range_at_10_percent_m, {1.0, 1000.0});
-    reader.read("range_sigma_m", model.range_sigma_m, {0.0, 1.0});
-    reader.read("range_resolution_m", model.range_resolution_m, {0.0, 1.0});
-    reader.read("ring_bias_sigma_m", model.ring_bias_sigma_m, {0.0, 1.0});
-  });
-  return model;
 }
 
 CameraModel catalogue_camera(const std::string& name) {
@@ -116,7 +90,7 @@ ImuModel catalogue_imu(const std::string& name) {
   read_device(name, "imu", [&](ConfigReader& reader) {
     reader.read("rate_hz", model.rate_hz, {10.0, 2000.0});
     read_scaled(reader, "gyro_density_deg_per_s_sqrt_hz", kDegree, model.noise.gyro_density, {0.0, 10.0});
-    read_scaled(reader, "accel_density_ug_per_sqrt_hz", kMicroG, model.noise.accel_density, {0.0, 1e5});
+    read_scaled(reader, "accel_density_ug_per_sqrt_hz", kMicro * kStandardG, model.noise.accel_density, {0.0, 1e5});
     reader.read("gyro_random_walk", model.noise.gyro_random_walk, {0.0, 1.0});
     reader.read("accel_random_walk", model.noise.accel_random_walk, {0.0, 10.0});
     read_scaled(reader, "gyro_turn_on_deg_per_s", kDegree, model.noise.gyro_turn_on_sigma, {0.0, 100.0});

@@ -1,7 +1,8 @@
 #include <algorithm>
 
-#include "scenarios/catalogue.h"
-#include "scenarios/input_error.h"
+#include "scenarios/catalogue_file.h"
+#include "scenarios/read_lidar.h"
+#include "scenarios/rig_reader.h"
 #include "scenarios/schema.h"
 
 namespace plumbline {
@@ -10,11 +11,9 @@ namespace {
 constexpr Range kOffset_m{-10.0, 10.0};
 constexpr Range kAngle_deg{-180.0, 180.0};
 constexpr Range kDecimation{1.0, 10.0};
-constexpr Range kLidarRate_hz{1.0, 50.0};
 constexpr Range kCameraRate_hz{1.0, 200.0};
 constexpr Range kImuRate_hz{50.0, 1000.0};
 constexpr Range kPixels{32.0, 4096.0};
-constexpr double kDegree = M_PI / 180.0;
 
 /// The six keys of a mounting: where the thing sits, and how it is turned.
 Pose read_mounting(ConfigReader& reader, Eigen::Vector3d position) {
@@ -26,25 +25,6 @@ Pose read_mounting(ConfigReader& reader, Eigen::Vector3d position) {
   reader.read("pitch_deg", rpy_deg.y(), kAngle_deg);
   reader.read("yaw_deg", rpy_deg.z(), kAngle_deg);
   return {rotation_from_rpy(rpy_deg * kDegree), position};
-}
-
-/// Replaces a model by the catalogue's of that name.
-template <typename Model>
-void read_model(ConfigReader& reader, const std::string& kind, Model (*from_catalogue)(const std::string&),
-                Model& model) {
-  const std::vector<std::string> names = catalogue_names(kind);
-  std::size_t index = 0;
-  if (reader.read_choice("model", names, index)) model = from_catalogue(names[index]);
-}
-
-/// The model's own rules, which know how its figures hang together.
-template <typename Model>
-void check_model(const ConfigReader& reader, const Model& model) {
-  try {
-    validate_or_throw(model);
-  } catch (const std::invalid_argument& error) {
-    throw InputError(reader.node().where + ": " + reader.path() + ": " + error.what());
-  }
 }
 
 /// What a rig is when a scenario says nothing of it.
@@ -60,10 +40,7 @@ RigConfig default_rig() {
 
 void read_lidar(ConfigReader& reader, RigConfig& config) {
   config.pack_from_lidar = read_mounting(reader, kDefaultLidarInPack);
-  read_model(reader, "lidar", catalogue_lidar, config.lidar);
-  reader.read("rate_hz", config.lidar.rate_hz, kLidarRate_hz);
-  reader.read("noise", config.lidar_noise);
-  check_model(reader, config.lidar);
+  read_lidar_device(reader, config);
 }
 
 void read_camera(ConfigReader& reader, RigConfig& config) {

@@ -7,16 +7,17 @@ ScanStream::ScanStream(const Scenario& scenario, const Surroundings& surrounding
       surroundings_(surroundings),
       end_ns_(world_from_body.end_ns()),
       driver_(surroundings.world, world_from_body),
-      lidar_(scenario.rig.lidar, scenario.rig.pack_from_lidar, scenario.seed) {
-  lidar_.noise_enabled = scenario.rig.lidar_noise;
-}
+      lidar_(scenario.rig.lidar, scenario.rig.pack_from_lidar, scenario.seed, scenario.rig.lidar_effects,
+             scenario.rig.lidar_returns),
+      parts_(messages_per_sweep(scenario.rig.lidar)) {}
 
 std::unique_ptr<SensorMessage> ScanStream::next() {
   const std::int64_t start_ns = scan_ * lidar_.period_ns();
   const std::int64_t end_ns = start_ns + lidar_.period_ns();
   if (end_ns > end_ns_) return nullptr;
   auto message = timed_message([&] { return cast(start_ns, end_ns); }, end_ns);
-  scan_ += scenario_.rig.decimation;
+  ++scan_;
+  if (scan_ % parts_ == 0) scan_ += (scenario_.rig.decimation - 1) * parts_;  // whole sweeps are left out
   return message;
 }
 

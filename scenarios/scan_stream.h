@@ -28,6 +28,7 @@ class ScanStream {
   const std::int64_t end_ns_;
   RigDriver driver_;
   Lidar lidar_;
+  const int parts_;        // messages of a sweep
   std::int64_t scan_ = 0;  // index of the next one
 };
 

@@ -48,8 +48,9 @@ struct RigConfig {
   LidarModel lidar;
   CameraModel camera;
   ImuModel imu;
-  bool lidar_noise = true;  ///< false: exact, for tests
-  bool camera_noise = true;
+  LidarEffects lidar_effects;
+  LidarReturns lidar_returns = LidarReturns::kStrongest;
+  bool camera_noise = true;  ///< false: exact, for tests
   bool imu_noise = true;
 };
 

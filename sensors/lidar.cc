@@ -2,40 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "sim/random_stream.h"
+
 namespace plumbline {
 namespace {
 
-constexpr double kReferenceReflectivity = 0.1;  // of LidarModel::range_at_10_percent_m
+using Source = FiringNoise::Source;
 
-std::int64_t nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
+constexpr double kSpeedOfLight_mps = 299792458.0;
+// Beyond this strength a loss is less likely than one in ten million.
+constexpr double kCertain = 2.1;
 
-double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
-
-// Rank of each laser by elevation, from the lowest.
-std::vector<std::uint16_t> rings_of(const std::vector<double>& elevation_deg) {
-  std::vector<std::size_t> from_lowest(elevation_deg.size());
-  std::iota(from_lowest.begin(), from_lowest.end(), std::size_t{0});
-  std::stable_sort(from_lowest.begin(), from_lowest.end(),
-                   [&](std::size_t a, std::size_t b) { return elevation_deg[a] < elevation_deg[b]; });
-  std::vector<std::uint16_t> ring(elevation_deg.size());
-  for (std::size_t rank = 0; rank < from_lowest.size(); ++rank)
-    ring[from_lowest[rank]] = static_cast<std::uint16_t>(rank);
-  return ring;
-}
-
-// Between the poses at both ends of a firing cycle. Over its 0.06 ms the normalised sum of the quaternions is the
-// geodesic to within 1e-11 rad at 10 rad/s, and costs a tenth of it.
-Pose pose_within_cycle(const Pose& begin, const Pose& end, double ratio) {
-  const double toward_end = begin.rotation.dot(end.rotation) < 0.0 ? -ratio : ratio;
-  const Eigen::Vector4d sum = (1.0 - ratio) * begin.rotation.coeffs() + toward_end * end.rotation.coeffs();
-  return {Eigen::Quaterniond(sum).normalized(), (1.0 - ratio) * begin.translation + ratio * end.translation};
-}
+std::int64_t nanoseconds(std::int64_t picoseconds) { return (picoseconds + 500) / 1000; }
 
 void require_cover(const PoseTrack& track, std::int64_t start_ns, std::int64_t end_ns) {
   if (track.covers(start_ns) && track.covers(end_ns)) return;
@@ -48,96 +30,186 @@ void require_cover(const PoseTrack& track, std::int64_t start_ns, std::int64_t e
 
 }  // namespace
 
-Lidar::Lidar(LidarModel model, const Pose& body_from_lidar, std::uint64_t seed)
-    : model_(std::move(model)), body_from_lidar_(body_from_lidar), seed_(derive_seed(seed, "lidar")) {
-  validate_or_throw(model_);
+Lidar::Lidar(LidarModel model, const Pose& body_from_lidar, std::uint64_t seed, const LidarEffects& effects,
+             LidarReturns returns)
+    : model_(std::move(model)),
+      pattern_(model_),
+      signal_(model_),
+      footprint_(model_),
+      body_from_lidar_(body_from_lidar),
+      seed_(derive_seed(seed, "lidar")),
+      effects_(effects),
+      returns_(returns),
+      echo_resolution_m_(0.5 * kSpeedOfLight_mps * model_.pulse_s) {
   RandomStream bias(seed_, "ring bias");
-  const std::vector<std::uint16_t> rings = rings_of(model_.elevation_deg);
-  for (std::size_t i = 0; i < rings.size(); ++i) {
-    const double elevation = radians(model_.elevation_deg[i]);
-    lasers_.push_back({.cos_elevation = std::cos(elevation),
-                       .sin_elevation = std::sin(elevation),
-                       .vertical_offset_m = model_.vertical_offset_m[i],
-                       .range_bias_m = model_.ring_bias_sigma_m * bias.gaussian(),
-                       .share_of_cycle = model_.laser_offset_s[i] / model_.cycle_s,
-                       .offset_ns = static_cast<std::int32_t>(nanoseconds(model_.laser_offset_s[i])),
-                       .ring = rings[i]});
+  for (std::size_t i = 0; i < pattern_.beams().size(); ++i) {
+    const double range_bias_m = model_.ring_bias_sigma_m * bias.gaussian();
+    range_bias_m_.push_back(effects_.ring_bias ? range_bias_m : 0.0);
   }
 }
-
-std::int64_t Lidar::period_ns() const { return nanoseconds(1.0 / model_.rate_hz); }
 
 LidarScan Lidar::scan(const Surroundings& surroundings, const PoseTrack& world_from_body, std::int64_t start_ns,
                       std::int64_t scan_index) const {
   LidarScan scan;
   scan.stamp_ns = start_ns;
   scan.end_ns = start_ns + period_ns();
-  scan.sweep = scan_index;
+  const int parts = messages_per_sweep(model_);
+  scan.sweep = scan_index / parts;
+  scan.ends_sweep = scan_index % parts == parts - 1;
   require_cover(world_from_body, scan.stamp_ns, scan.end_ns);
-  // Whole cycles only: the head's remaining part of a cycle falls to nobody.
-  const auto cycles = static_cast<int>(seconds_between(scan.stamp_ns, scan.end_ns) / model_.cycle_s);
-  scan.points.reserve(static_cast<std::size_t>(cycles) * lasers_.size());
-  RandomStream noise(seed_ + static_cast<std::uint64_t>(scan_index), "ranges");
 
-  const auto pose_at_cycle = [&](int cycle) {
-    return world_from_body.at(start_ns + nanoseconds(cycle * model_.cycle_s)) * body_from_lidar_;
-  };
-  Pose cycle_end = pose_at_cycle(0);
-  for (int cycle = 0; cycle < cycles; ++cycle) {
-    const Pose cycle_begin = cycle_end;
-    cycle_end = pose_at_cycle(cycle + 1);
-    const auto cycle_offset_ns = static_cast<std::int32_t>(nanoseconds(cycle * model_.cycle_s));
-    for (const Laser& laser : lasers_) {
-      // Drawn whether or not there is a return, so that a surface's change leaves the others' noise as it was.
-      const double range_noise_m = model_.range_sigma_m * noise.gaussian();
-      const Pose world_from_lidar = pose_within_cycle(cycle_begin, cycle_end, laser.share_of_cycle);
-      const auto point = fire(surroundings, world_from_lidar, laser, cycle_offset_ns + laser.offset_ns, range_noise_m);
-      if (point) scan.points.push_back(*point);
+  const std::vector<FiringPattern::Cycle> cycles = pattern_.cycles(scan_index, !effects_.quantisation);
+  LidarCaster caster(surroundings, effects_.own_body ? surroundings.own_body : nullptr, world_from_body,
+                     body_from_lidar_, pattern_, start_ns, model_.max_range_m);
+  const LidarAir air(effects_.weather ? surroundings.world.atmosphere : Atmosphere{}, model_);
+
+  const std::vector<FiringPattern::Beam>& beams = pattern_.beams();
+  const std::uint64_t key = mix_bits(seed_ ^ mix_bits(static_cast<std::uint64_t>(scan_index)));
+  scan.points.reserve(cycles.size() * beams.size());
+  LidarEchoes echoes;
+  CastCycle before;
+  CastCycle at;
+  CastCycle after;
+  cast_centres(cycles.front(), caster, after);
+  for (std::size_t k = 0; k < cycles.size(); ++k) {
+    std::swap(before, at);
+    std::swap(at, after);
+    after.cycle = nullptr;
+    if (k + 1 < cycles.size()) cast_centres(cycles[k + 1], caster, after);
+    for (std::size_t beam = 0; beam < beams.size(); ++beam) {
+      if (!fires(cycles[k], beams[beam])) continue;
+      const Firing firing{before,
+                          at,
+                          after,
+                          beam,
+                          cycles[k].offset_ps + beams[beam].offset_ps,
+                          FiringNoise(mix_bits(key + k * beams.size() + beam))};
+      echoes.clear();
+      find_echoes(firing, air, caster, echoes);
+      report(echoes, firing, scan.points);
     }
   }
   return scan;
 }
 
-std::optional<LidarPoint> Lidar::fire(const Surroundings& surroundings, const Pose& world_from_lidar,
-                                      const Laser& laser, std::int32_t offset_ns, double range_noise_m) const {
-  const double azimuth = std::numbers::pi * (1.0 - 2.0 * model_.rate_hz * 1e-9 * offset_ns);
-  const Eigen::Vector3d origin(0.0, 0.0, laser.vertical_offset_m);
-  const Eigen::Vector3d direction(laser.cos_elevation * std::cos(azimuth), laser.cos_elevation * std::sin(azimuth),
-                                  laser.sin_elevation);
-  const Eigen::Vector3d direction_in_world = world_from_lidar.rotation * direction;
-  const RayHit hit = surroundings.rays.cast(world_from_lidar * origin, direction_in_world, 0.0, model_.max_range_m);
-  if (!hit.hit) return std::nullopt;
+bool Lidar::fires(const FiringPattern::Cycle& cycle, const FiringPattern::Beam& beam) const {
+  const std::int64_t time_ps = cycle.offset_ps + beam.offset_ps;
+  return time_ps >= 0 && time_ps < pattern_.message_ps();
+}
 
-  const Material& material =
-      surroundings.world.materials()[static_cast<std::size_t>(surroundings.world.material_of(hit.geom))];
-  const double cos_incidence = std::abs(hit.normal_in_world.cast<double>().dot(direction_in_world));
-  const double reflectivity_towards_lidar = material.lidar_reflectivity * cos_incidence;
-  if (!is_detected(hit.range_m, reflectivity_towards_lidar)) return std::nullopt;
-  const double range = measured_range(hit.range_m, laser, range_noise_m);
-  if (range < model_.min_range_m || range > model_.max_range_m) return std::nullopt;
+void Lidar::cast_centres(const FiringPattern::Cycle& cycle, LidarCaster& caster, CastCycle& cast) const {
+  const std::vector<FiringPattern::Beam>& beams = pattern_.beams();
+  cast.cycle = &cycle;
+  cast.motion = caster.motion_of(cycle);
+  cast.hits.assign(beams.size(), {});
+  for (std::size_t i = 0; i < beams.size(); ++i) {
+    if (!fires(cycle, beams[i])) continue;
+    const HeadRay ray{beams[i].origin_in_head, beams[i].direction_in_head};
+    cast.hits[i] = caster.cast(cast.motion, ray, cycle.offset_ps + beams[i].offset_ps);
+  }
+}
 
+void Lidar::find_echoes(const Firing& firing, const LidarAir& air, const LidarCaster& caster,
+                        LidarEchoes& echoes) const {
+  const LidarHit& centre = firing.at.hits[firing.beam];
+  if (effects_.mixed_pixels && meets_an_edge(firing, caster)) {
+    add_sub_rays(firing, air, caster, echoes);
+  } else if (!centre.is_none()) {
+    echoes.add(echo_of(centre, air));
+  }
+  if (air.is_clear()) return;
+  double until_m = model_.max_range_m;
+  for (const LidarEcho& echo : echoes) until_m = std::min(until_m, echo.range_m);
+  air.add_echoes(signal_, firing.noise, until_m, echoes);
+}
+
+// The centre rays around this one show where an edge may be near enough to matter; two rays at the beam's rim in that
+// direction tell. What is thinner than the beams' spacing and missed by all of them stays unseen.
+bool Lidar::meets_an_edge(const Firing& firing, const LidarCaster& caster) const {
+  const FiringPattern::Beam& beam = pattern_.beams()[firing.beam];
+  const LidarHit& centre = firing.at.hits[firing.beam];
+  const auto goes_on = [&](const CastCycle& neighbour) {
+    return neighbour.cycle == nullptr || centre.continues_in(neighbour.hits[firing.beam]);
+  };
+  const auto goes_on_in = [&](int neighbour) {
+    return neighbour < 0 || centre.continues_in(firing.at.hits[static_cast<std::size_t>(neighbour)]);
+  };
+  const auto differs_at = [&](double side, double up) {
+    const HeadRay rim = footprint_.ray(beam, {side, up});
+    return !centre.continues_in(caster.cast(firing.at.motion, rim, firing.time_ps));
+  };
+  const bool side_is_plane = goes_on(firing.before) && goes_on(firing.after);
+  if (!side_is_plane && (differs_at(1.0, 0.0) || differs_at(-1.0, 0.0))) return true;
+  const bool is_alone = beam.above < 0 && beam.below < 0;
+  const bool column_is_plane = !is_alone && goes_on_in(beam.above) && goes_on_in(beam.below);
+  return !column_is_plane && (differs_at(0.0, 1.0) || differs_at(0.0, -1.0));
+}
+
+void Lidar::add_sub_rays(const Firing& firing, const LidarAir& air, const LidarCaster& caster,
+                         LidarEchoes& echoes) const {
+  const FiringPattern::Beam& beam = pattern_.beams()[firing.beam];
+  for (const Eigen::Vector2d& place : footprint_.places(firing.noise.uniform(Source::kFootprint))) {
+    LidarHit hit = caster.cast(firing.at.motion, footprint_.ray(beam, place), firing.time_ps);
+    if (hit.is_none()) continue;
+    hit.reflectivity /= LidarFootprint::kRays;
+    LidarEcho echo = echo_of(hit, air);
+    echo.spread_m = 0.0;  // the sub-rays' own spread stands for it
+    echoes.add(echo);
+  }
+  echoes.merge(echo_resolution_m_);
+}
+
+LidarEcho Lidar::echo_of(const LidarHit& hit, const LidarAir& air) const {
+  const double range_m = hit.range_m;
+  const double transmission = air.is_clear() ? 1.0 : air.transmission(range_m);
+  return {range_m, signal_.strength(range_m, double{hit.reflectivity} * double{hit.cos_incidence}, transmission),
+          effects_.range_noise ? signal_.spread_m(range_m, hit.cos_incidence) : 0.0};
+}
+
+bool Lidar::is_detected(const LidarEcho& echo, unsigned index, const FiringNoise& noise) const {
+  if (!effects_.drop_out || echo.strength >= kCertain) return true;
+  return noise.uniform(Source::kDetection, index) < signal_.detection_probability(echo.strength);
+}
+
+void Lidar::report(const LidarEchoes& echoes, const Firing& firing, std::vector<LidarPoint>& points) const {
+  const LidarEcho* strongest = nullptr;
+  const LidarEcho* second = nullptr;
+  const LidarEcho* last = nullptr;
+  unsigned index = 0;
+  for (const LidarEcho& echo : echoes) {
+    if (!is_detected(echo, index++, firing.noise)) continue;
+    if (!strongest || echo.strength > strongest->strength) {
+      second = std::exchange(strongest, &echo);
+    } else if (!second || echo.strength > second->strength) {
+      second = &echo;
+    }
+    if (!last || echo.range_m > last->range_m) last = &echo;
+  }
+  if (!strongest) return;
+  add_point(returns_ == LidarReturns::kLast ? *last : *strongest, Source::kRange, firing, points);
+  if (returns_ != LidarReturns::kDual) return;
+  const LidarEcho* other = last == strongest ? second : last;
+  if (other) add_point(*other, Source::kSecondRange, firing, points);
+}
+
+void Lidar::add_point(const LidarEcho& echo, Source source, const Firing& firing,
+                      std::vector<LidarPoint>& points) const {
+  double range_m = echo.range_m + range_bias_m_[firing.beam];
+  if (effects_.range_noise)
+    range_m += firing.noise.gaussian(source) * signal_.range_sigma_m(echo.strength, echo.spread_m);
+  const double resolution_m = model_.range_resolution_m;
+  if (effects_.quantisation && resolution_m > 0.0) range_m = resolution_m * std::round(range_m / resolution_m);
+  if (range_m < model_.min_range_m || range_m > model_.max_range_m) return;
+
+  const FiringPattern::Beam& beam = pattern_.beams()[firing.beam];
+  const Eigen::Vector3d in_head = beam.origin_in_head + range_m * beam.direction_in_head;
   LidarPoint point;
-  point.position = (origin + range * direction).cast<float>();
-  point.offset_ns = offset_ns;
-  point.ring = laser.ring;
-  point.intensity = static_cast<float>(std::clamp(reflectivity_towards_lidar, 0.0, 1.0));
-  return point;
-}
-
-double Lidar::measured_range(double true_range_m, const Laser& laser, double range_noise_m) const {
-  if (!noise_enabled) return true_range_m;
-  const double range = true_range_m + laser.range_bias_m + range_noise_m;
-  const double resolution = model_.range_resolution_m;
-  return resolution > 0.0 ? resolution * std::round(range / resolution) : range;
-}
-
-// The light received from an extended Lambertian target goes with reflectivity cos(incidence) / range^2 (Hoefle and
-// Pfeifer, ISPRS J. 62(6), 2007, eq. 7, without the air's absorption); less than the data sheet's weakest target is
-// lost.
-bool Lidar::is_detected(double range_m, double reflectivity_towards_lidar) const {
-  if (!noise_enabled) return true;
-  const double relative_range = range_m / model_.range_at_10_percent_m;
-  return reflectivity_towards_lidar >= kReferenceReflectivity * relative_range * relative_range;
+  const FiringPattern::Cycle& cycle = *firing.at.cycle;
+  point.position = (cycle.reported_lidar_from_head * in_head).cast<float>();
+  point.offset_ns = static_cast<std::int32_t>(nanoseconds(firing.time_ps));
+  point.ring = static_cast<std::uint16_t>(beam.ring + cycle.first_ring);
+  point.intensity = static_cast<float>(std::clamp(signal_.intensity(echo.range_m, echo.strength), 0.0, 1.0));
+  points.push_back(point);
 }
 
 }  // namespace plumbline

@@ -1,79 +1,104 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "estimator/geometry/interpolation.h"
 #include "estimator/messages.h"
-#include "sim/random_stream.h"
+#include "sensors/lidar_air.h"
+#include "sensors/lidar_caster.h"
+#include "sensors/lidar_echo.h"
+#include "sensors/lidar_footprint.h"
+#include "sensors/lidar_model.h"
+#include "sensors/lidar_noise.h"
+#include "sensors/lidar_pattern.h"
+#include "sensors/lidar_signal.h"
 #include "sim/surroundings.h"
 
 namespace plumbline {
 
-/// A spinning lidar as its data sheet describes it.
-struct LidarModel {
-  std::string name = "vlp16";
-  std::vector<double> elevation_deg;      ///< per laser, in firing order
-  std::vector<double> vertical_offset_m;  ///< of the laser's origin, per laser
-  std::vector<double> laser_offset_s;     ///< firing time within a cycle, per laser
-  double cycle_s = 55.296e-6;
-  double rate_hz = 10.0;
-  double min_range_m = 0.5;
-  double max_range_m = 100.0;
-  double range_at_10_percent_m = 50.0;  ///< how far a plate of 10 % reflectivity, seen head-on, still gives a return
-  double range_sigma_m = 0.012;         ///< white, per return
-  double range_resolution_m = 0.002;
-  double ring_bias_sigma_m = 0.0;  ///< constant per laser, drawn per seed
+/// What makes a lidar a real one; each can be left out on its own.
+struct LidarEffects {
+  bool range_noise = true;   ///< white, growing as the light fades: see LidarSignal
+  bool ring_bias = true;     ///< constant per laser
+  bool drop_out = true;      ///< surfaces too dark, oblique or far do not return; without, all within range do
+  bool mixed_pixels = true;  ///< the beam has a width: at an edge it meets several surfaces
+  bool weather = true;       ///< World::atmosphere
+  bool own_body = true;      ///< the vehicle is in view
+  bool quantisation = true;  ///< of ranges and of the encoder's angle
+
+  /// An ideal device.
+  static LidarEffects none() { return {false, false, false, false, false, false, false}; }
 };
 
-/// Velodyne VLP-16: manual 63-9243, vertical angles, vertical offsets and firing times (p. 54); precision as measured.
-LidarModel vlp16();
-
-/// @throws std::invalid_argument naming the field that is out of range.
-void validate_or_throw(const LidarModel& model);
+/// Which of a firing's echoes are reported.
+enum class LidarReturns {
+  kStrongest,
+  kLast,
+  kDual  ///< the strongest, then the last; where they are one, the second strongest
+};
 
 class Lidar {
  public:
-  /// @param seed  the scenario's; the noise is drawn from a stream named after the sensor, afresh for every scan.
-  Lidar(LidarModel model, const Pose& body_from_lidar, std::uint64_t seed);
+  /// @param seed  the scenario's; the noise is drawn from a stream named after the sensor, afresh for every firing.
+  /// @throws std::invalid_argument as validate_or_throw
+  Lidar(LidarModel model, const Pose& body_from_lidar, std::uint64_t seed, const LidarEffects& effects = {},
+        LidarReturns returns = LidarReturns::kStrongest);
 
-  /// Casts one revolution that starts at start_ns, each firing from the body's pose at its own time.
-  /// Deterministic in (seed, scan_index), whatever came before. Azimuth turns clockwise seen from above, as the device
-  /// does, from straight behind. A surface nearer than the least range hides what is behind it and gives no return; nor
-  /// does one too dark, too oblique or too far for its light to arrive. Intensity is reflectivity times the cosine of
-  /// the angle of incidence, as of a device that compensates for range.
-  /// @param world_from_body  must cover the revolution
+  /// Casts one message that starts at start_ns, each firing from the body's pose at its own time: a revolution
+  /// (clockwise seen from above, from straight behind), or a part of a 2-axis head's sweep. The device's own clock and
+  /// its joint count from message 0. Deterministic in (seed, scan_index), whatever came before; what a firing draws
+  /// does not depend on the other firings' returns.
+  ///
+  /// A surface nearer than the least range hides what is behind it and gives no return. Intensity is reflectivity times
+  /// the cosine of the angle of incidence, as of a device that compensates for range.
+  /// @param world_from_body  must cover the message
   /// @throws std::invalid_argument if it does not
   LidarScan scan(const Surroundings& surroundings, const PoseTrack& world_from_body, std::int64_t start_ns,
                  std::int64_t scan_index) const;
 
   const LidarModel& model() const { return model_; }
-  std::int64_t period_ns() const;
-  /// False makes an ideal device: exact ranges, and a return from every surface within range.
-  bool noise_enabled = true;
+  const FiringPattern& pattern() const { return pattern_; }
+  std::int64_t period_ns() const { return message_period_ns(model_); }
 
  private:
-  struct Laser {
-    double cos_elevation = 1.0;
-    double sin_elevation = 0.0;
-    double vertical_offset_m = 0.0;
-    double range_bias_m = 0.0;
-    double share_of_cycle = 0.0;  ///< of the cycle's time at which it fires
-    std::int32_t offset_ns = 0;   ///< within the cycle
-    std::uint16_t ring = 0;
+  /// A cycle of the head, and what its beams' centre rays meet.
+  struct CastCycle {
+    const FiringPattern::Cycle* cycle = nullptr;  ///< nullptr: none
+    HeadMotion motion;
+    std::vector<LidarHit> hits;  ///< per beam
+  };
+  /// One laser's, among those around it in time.
+  struct Firing {
+    const CastCycle& before;
+    const CastCycle& at;
+    const CastCycle& after;
+    std::size_t beam = 0;
+    std::int64_t time_ps = 0;  ///< since the message's start
+    FiringNoise noise;
   };
 
-  std::optional<LidarPoint> fire(const Surroundings& surroundings, const Pose& world_from_lidar, const Laser& laser,
-                                 std::int32_t offset_ns, double range_noise_m) const;
-  double measured_range(double true_range_m, const Laser& laser, double range_noise_m) const;
-  bool is_detected(double range_m, double reflectivity_towards_lidar) const;
+  bool fires(const FiringPattern::Cycle& cycle, const FiringPattern::Beam& beam) const;
+  void cast_centres(const FiringPattern::Cycle& cycle, LidarCaster& caster, CastCycle& cast) const;
+  void find_echoes(const Firing& firing, const LidarAir& air, const LidarCaster& caster, LidarEchoes& echoes) const;
+  bool meets_an_edge(const Firing& firing, const LidarCaster& caster) const;
+  void add_sub_rays(const Firing& firing, const LidarAir& air, const LidarCaster& caster, LidarEchoes& echoes) const;
+  LidarEcho echo_of(const LidarHit& hit, const LidarAir& air) const;
+  bool is_detected(const LidarEcho& echo, unsigned index, const FiringNoise& noise) const;
+  void report(const LidarEchoes& echoes, const Firing& firing, std::vector<LidarPoint>& points) const;
+  void add_point(const LidarEcho& echo, FiringNoise::Source source, const Firing& firing,
+                 std::vector<LidarPoint>& points) const;
 
   LidarModel model_;
+  FiringPattern pattern_;
+  LidarSignal signal_;
+  LidarFootprint footprint_;
   Pose body_from_lidar_;
   std::uint64_t seed_ = 0;
-  std::vector<Laser> lasers_;  ///< in firing order
+  LidarEffects effects_;
+  LidarReturns returns_;
+  double echo_resolution_m_ = 0.0;    ///< nearer echoes are one pulse to the receiver
+  std::vector<double> range_bias_m_;  ///< per beam
 };
 
 }  // namespace plumbline

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
+
+#include "scenarios/calibration.h"
 #include "tests/scenarios/temporary_directory.h"
 
 namespace plumbline {
@@ -39,9 +42,36 @@ TEST_F(ScenarioFile, NeedsNothingButWayPoints) {
   EXPECT_EQ(scenario.seed, 1U);
   EXPECT_EQ(scenario.world.scene, "garage");
   EXPECT_EQ(scenario.estimator_name, "vloam");
-  EXPECT_EQ(scenario.rig.lidar.elevation_deg.size(), 16U);
+  EXPECT_EQ(scenario.rig.lidar.beams.size(), 16U);
   EXPECT_TRUE(scenario.rig.pack_from_lidar.translation.isApprox(Eigen::Vector3d(0, 0, 0.1)));
   EXPECT_TRUE(scenario.rig.pack_from_camera.translation.isApprox(Eigen::Vector3d(0.1, 0, 0)));
+}
+
+TEST_F(ScenarioFile, SwitchesEachEffectOfTheLidarOffOnItsOwn) {
+  const LidarEffects all = load(kMotion).rig.lidar_effects;
+  EXPECT_TRUE(all.range_noise && all.ring_bias && all.drop_out && all.mixed_pixels && all.weather && all.own_body &&
+              all.quantisation);
+  const std::map<std::string, bool LidarEffects::*> effects = {
+      {"range_noise", &LidarEffects::range_noise},  {"ring_bias", &LidarEffects::ring_bias},
+      {"drop_out", &LidarEffects::drop_out},        {"mixed_pixels", &LidarEffects::mixed_pixels},
+      {"weather", &LidarEffects::weather},          {"own_body", &LidarEffects::own_body},
+      {"quantisation", &LidarEffects::quantisation}};
+  for (const auto& [key, effect] : effects) {
+    const LidarEffects found = load(kMotion, {"rig.lidar.effects." + key + "=false"}).rig.lidar_effects;
+    for (const auto& [other, of_other] : effects) EXPECT_EQ(found.*of_other, other != key) << key << ' ' << other;
+  }
+  const RigConfig ideal = load(kMotion, {"rig.lidar.noise=false", "rig.lidar.returns=dual"}).rig;
+  for (const auto& [key, effect] : effects) EXPECT_FALSE(ideal.lidar_effects.*effect) << key;
+  EXPECT_EQ(ideal.lidar_returns, LidarReturns::kDual);
+}
+
+TEST_F(ScenarioFile, TakesALineScannersSweepAsTheLidarsRate) {
+  const RigConfig rig = load(kMotion, {"rig.lidar.model=utm30lx_sweeping"}).rig;
+  EXPECT_EQ(messages_per_sweep(rig.lidar), 10);
+  const Calibration calibration = calibration_of(rig);
+  EXPECT_EQ(calibration.lidar_rings, 40);
+  EXPECT_EQ(calibration.lidar_rate_hz, 1.0);
+  EXPECT_EQ(calibration.lidar_max_range_m, 30.0);
 }
 
 TEST_F(ScenarioFile, ReadsEverySection) {
@@ -87,7 +117,7 @@ expect: {status: ok, drift_percent: {max: 0.5}, progress_ratio: {min: 0.98, max:
   ASSERT_EQ(scenario.motion.waypoints.size(), 3U);
   EXPECT_EQ(scenario.motion.waypoints[1].speed_mps, 4.0);
   EXPECT_EQ(scenario.rig.decimation, 2);
-  EXPECT_FALSE(scenario.rig.lidar_noise);
+  EXPECT_FALSE(scenario.rig.lidar_effects.range_noise);
   EXPECT_TRUE(scenario.rig.camera_noise);
   EXPECT_EQ(scenario.rig.lidar.rate_hz, 5.0);
   EXPECT_EQ(scenario.rig.camera.width, 320);

@@ -108,21 +108,21 @@ TEST(Catalogue, DevicesLoadAndAreValid) {
 TEST(Catalogue, Vlp16IsTheOneOfTheSensorsOwnTests) {
   const LidarModel file = catalogue_lidar("vlp16");
   const LidarModel code = vlp16();
-  EXPECT_EQ(file.elevation_deg, code.elevation_deg);
-  ASSERT_EQ(file.vertical_offset_m.size(), code.vertical_offset_m.size());
-  ASSERT_EQ(file.laser_offset_s.size(), code.laser_offset_s.size());
-  for (std::size_t i = 0; i < code.laser_offset_s.size(); ++i) {
-    EXPECT_NEAR(file.vertical_offset_m[i], code.vertical_offset_m[i], 1e-12);
-    EXPECT_NEAR(file.laser_offset_s[i], code.laser_offset_s[i], 1e-15);
+  ASSERT_EQ(file.beams.size(), code.beams.size());
+  for (std::size_t i = 0; i < code.beams.size(); ++i) {
+    EXPECT_EQ(file.beams[i].elevation_deg, code.beams[i].elevation_deg);
+    EXPECT_EQ(file.beams[i].azimuth_deg, code.beams[i].azimuth_deg);
+    EXPECT_NEAR(file.beams[i].vertical_offset_m, code.beams[i].vertical_offset_m, 1e-12);
+    EXPECT_NEAR(file.beams[i].firing_s, code.beams[i].firing_s, 1e-15);
   }
-  EXPECT_NEAR(file.cycle_s, code.cycle_s, 1e-15);
-  EXPECT_EQ(file.rate_hz, code.rate_hz);
-  EXPECT_EQ(file.min_range_m, code.min_range_m);
-  EXPECT_EQ(file.max_range_m, code.max_range_m);
-  EXPECT_EQ(file.range_at_10_percent_m, code.range_at_10_percent_m);
-  EXPECT_EQ(file.range_sigma_m, code.range_sigma_m);
-  EXPECT_EQ(file.range_resolution_m, code.range_resolution_m);
-  EXPECT_EQ(file.ring_bias_sigma_m, code.ring_bias_sigma_m);
+  EXPECT_NEAR(std::get<SpinningHead>(file.head).cycle_s, std::get<SpinningHead>(code.head).cycle_s, 1e-15);
+  constexpr double LidarModel::*kFigures[] = {
+      &LidarModel::rate_hz,           &LidarModel::encoder_resolution_deg,    &LidarModel::min_range_m,
+      &LidarModel::max_range_m,       &LidarModel::range_at_10_percent_m,     &LidarModel::range_sigma_m,
+      &LidarModel::pulse_s,           &LidarModel::range_sigma_at_limit_m,    &LidarModel::range_resolution_m,
+      &LidarModel::ring_bias_sigma_m, &LidarModel::accuracy_sigma_m,          &LidarModel::exit_width_m,
+      &LidarModel::exit_height_m,     &LidarModel::divergence_horizontal_rad, &LidarModel::divergence_vertical_rad};
+  for (const auto figure : kFigures) EXPECT_DOUBLE_EQ(file.*figure, code.*figure);
 }
 
 }  // namespace
