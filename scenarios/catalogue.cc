@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <functional>
 
-#include "scenarios/config_reader.h"
+#include "scenarios/device_file.h"
 #include "scenarios/input_error.h"
 #include "scenarios/yaml_reader.h"
 
@@ -26,6 +25,8 @@ CatalogueEntry read_header(ConfigReader& reader, const std::string& name) {
   return entry;
 }
 
+}  // namespace
+
 void read_device(const std::string& name, const std::string& kind,
                  const std::function<void(ConfigReader&)>& read_keys) {
   const std::filesystem::path path = catalogue_directory() / (name + ".yaml");
@@ -36,7 +37,6 @@ void read_device(const std::string& name, const std::string& kind,
   reader.finish();
 }
 
-/// The conversion from a file's unit, which stands in the key, to SI.
 void read_scaled(ConfigReader& reader, const std::string& key, double unit, double& value, Range range) {
   double in_unit = 0.0;
   if (reader.read(key, in_unit, range)) value = in_unit * unit;
@@ -46,8 +46,6 @@ void read_scaled(ConfigReader& reader, const std::string& key, double unit, std:
   if (!reader.read(key, values, range)) return;
   for (double& value : values) value *= unit;
 }
-
-}  // namespace
 
 std::vector<CatalogueEntry> sensor_catalogue() {
   std::vector<CatalogueEntry> entries;
@@ -84,28 +82,6 @@ LidarModel catalogue_lidar(const std::string& name) {
     reader.read("range_sigma_m", model.range_sigma_m, {0.0, 1.0});
     reader.read("range_resolution_m", model.range_resolution_m, {0.0, 1.0});
     reader.read("ring_bias_sigma_m", model.ring_bias_sigma_m, {0.0, 1.0});
-  });
-  return model;
-}
-
-CameraModel catalogue_camera(const std::string& name) {
-  CameraModel model;
-  model.name = name;
-  read_device(name, "camera", [&](ConfigReader& reader) {
-    reader.read("width", model.width, {16.0, 8192.0});
-    reader.read("height", model.height, {16.0, 8192.0});
-    reader.read("horizontal_fov_deg", model.horizontal_fov_deg, {1.0, 170.0});
-    reader.read("rate_hz", model.rate_hz, {0.1, 1000.0});
-    reader.read("electrons_per_dn", model.electrons_per_dn, {0.1, 1e4});
-    reader.read("read_noise_electrons", model.read_noise_electrons, {0.0, 1e4});
-    reader.read("full_well_electrons", model.full_well_electrons, {100.0, 1e7});
-    reader.read("f_number", model.f_number, {0.5, 64.0});
-    reader.read("electrons_per_lux_second", model.electrons_per_lux_second, {1.0, 1e8});
-    reader.read("black_level_dn", model.black_level_dn, {0.0, 100.0});
-    read_scaled(reader, "min_exposure_us", kMicro, model.min_exposure_s, {1.0, 1e6});
-    read_scaled(reader, "max_exposure_ms", kMilli, model.max_exposure_s, {0.01, 1e4});
-    reader.read("max_gain", model.max_gain, {1.0, 100.0});
-    reader.read("target_dn", model.target_dn, {1.0, 254.0});
   });
   return model;
 }
