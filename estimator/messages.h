@@ -67,7 +67,7 @@ struct CameraIntrinsics {
   double fy = 0.0;
   double cx = 0.0;
   double cy = 0.0;
-  LensDistortion distortion;
+  LensDistortion distortion{};
 };
 
 /// Continuous-time densities and one-sigma turn-on biases, from the IMU's data sheet.
