@@ -28,11 +28,6 @@ RenderView view_of(const DepthCameraModel& model) {
   return view;
 }
 
-const NoiseTables& tables() {
-  static const NoiseTables kTables;
-  return kTables;
-}
-
 }  // namespace
 
 void validate_or_throw(const DepthCameraModel& model) {
@@ -104,6 +99,7 @@ void DepthCamera::measure_row(const std::vector<float>& disparity, int row, std:
   const auto sigma = effects_.noise ? static_cast<float>(model_.disparity_sigma_px) : 0.0F;
   const float most = focal_length_times_baseline_ / static_cast<float>(model_.min_range_m);
   const float least = focal_length_times_baseline_ / static_cast<float>(model_.max_range_m);
+  const NoiseTables& draws = noise_tables();
   float leftmost_lit = std::numeric_limits<float>::infinity();
   for (int column = view_.width - 1; column >= 0; --column) {
     const auto i = static_cast<std::size_t>(row * view_.width + column);
@@ -111,7 +107,7 @@ void DepthCamera::measure_row(const std::vector<float>& disparity, int row, std:
     const bool in_shadow = effects_.shadow && projector_column > leftmost_lit;
     leftmost_lit = std::min(leftmost_lit, projector_column);
     if (in_shadow || (effects_.edges && at_edge(disparity, column, row))) continue;
-    float measured = disparity[i] + sigma * tables().gaussian(mix_bits(frame_seed + i));
+    float measured = disparity[i] + sigma * draws.gaussian(mix_bits(frame_seed + i));
     if (effects_.quantisation) measured = step * std::round(measured / step);
     if (measured >= least && measured <= most) depth_m[i] = focal_length_times_baseline_ / measured;
   }

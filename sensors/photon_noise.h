@@ -25,11 +25,15 @@ class NoiseTables {
  private:
   static constexpr std::size_t kGaussianSize = 8192;
   static constexpr std::size_t kPoissonSize = 4096;
+  static constexpr int kMeansPerElectron = 8;
 
   float counted(float mean, std::uint64_t bits) const;
 
   std::array<float, kGaussianSize> gaussian_;
-  std::vector<std::uint8_t> poisson_;  ///< kPoissonSize quantiles for each whole mean from 0
+  std::vector<std::uint8_t> poisson_;  ///< kPoissonSize quantiles for each multiple of 1/kMeansPerElectron from 0
 };
+
+/// The one copy of them.
+const NoiseTables& noise_tables();
 
 }  // namespace plumbline

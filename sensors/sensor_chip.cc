@@ -12,11 +12,6 @@ namespace {
 
 constexpr int kCountsPerDn = 4;  // ten bits to eight
 
-const NoiseTables& tables() {
-  static const NoiseTables kTables;
-  return kTables;
-}
-
 /// One frame's way from electrons to counts.
 struct Converter {
   float dark_electrons = 0.0F;
@@ -75,7 +70,7 @@ RawImage read_out(const SensorChip& chip, const ExposureSettings& settings, cons
   raw.channels =
       static_cast<int>(mean_electrons.size() / (static_cast<std::size_t>(width) * static_cast<std::size_t>(height)));
   raw.counts.resize(mean_electrons.size());
-  const NoiseTables& draws = tables();
+  const NoiseTables& draws = noise_tables();
   for (std::size_t i = 0; i < mean_electrons.size(); ++i) {
     const std::uint64_t bits = mix_bits(frame_seed + i);
     const float mean = mean_electrons[i] + converter.dark_electrons;
