@@ -3,16 +3,13 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "scenarios/device_file.h"
+#include "scenarios/catalogue_file.h"
 #include "scenarios/input_error.h"
 #include "scenarios/yaml_reader.h"
 
 namespace plumbline {
 namespace {
 
-constexpr double kMicro = 1e-6;
-constexpr double kMilli = 1e-3;
-constexpr double kDegree = M_PI / 180.0;
 constexpr double kMicroG = 9.80665e-6;
 
 std::filesystem::path catalogue_directory() { return PLUMBLINE_CATALOGUE_DIR; }

@@ -1,14 +1,9 @@
-#include <algorithm>
-
 #include "scenarios/catalogue.h"
-#include "scenarios/device_file.h"
+#include "scenarios/catalogue_file.h"
 #include "scenarios/read_camera.h"
 
 namespace plumbline {
 namespace {
-
-constexpr double kMicro = 1e-6;
-constexpr double kMilli = 1e-3;
 
 void read_chip(ConfigReader& reader, SensorChip& chip) {
   reader.read("electrons_per_dn", chip.electrons_per_dn, {0.1, 1e4});

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "scenarios/mounting.h"
+#include "scenarios/rig_reader.h"
 
 namespace plumbline {
 namespace {

@@ -1,6 +1,7 @@
 #include "scenarios/catalogue.h"
 #include "scenarios/mounting.h"
 #include "scenarios/read_camera.h"
+#include "scenarios/rig_reader.h"
 #include "scenarios/schema.h"
 
 namespace plumbline {

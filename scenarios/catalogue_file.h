@@ -6,10 +6,19 @@
 
 #include "scenarios/config_reader.h"
 
-/// Reading one device's file of sensors/catalogue.
+/// Reading one file of sensors/catalogue.
 namespace plumbline {
 
-/// Reads the file of a device, which must be of a kind. @throws InputError
+/// Units of catalogue files, in SI.
+inline constexpr double kMicro = 1e-6;
+inline constexpr double kMilli = 1e-3;
+inline constexpr double kPercent = 1e-2;
+inline constexpr double kDegree = 3.14159265358979323846 / 180.0;
+inline constexpr double kDegreePerHour = kDegree / 3600.0;
+inline constexpr double kStandardG = 9.80665;  ///< [m/s^2]
+
+/// Opens a device's file and has its keys read to the full, `kind` and `summary` aside.
+/// @throws InputError if there is none, or if it is of another kind
 void read_device(const std::string& name, const std::string& kind, const std::function<void(ConfigReader&)>& read_keys);
 
 /// The conversion from a file's unit, which stands in the key, to SI.
