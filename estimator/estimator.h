@@ -62,6 +62,8 @@ struct TrackedFeature {
 struct MapPoint {
   Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< in the estimate's world
   float intensity = 0.0F;
+  bool coloured = false;                 ///< a colour camera saw it
+  std::array<std::uint8_t, 3> colour{};  ///< red, green, blue, sRGB
 };
 
 /// Messages taken and refused, per module.
@@ -109,7 +111,8 @@ const std::vector<EstimatorInfo>& estimator_library();
 std::unique_ptr<Estimator> make_estimator(const std::string& name, const Calibration& calibration,
                                           const EstimatorConfig& config);
 
-/// Writes points as a binary PLY (x, y, z, intensity) through PCL. @throws std::runtime_error if it cannot be written.
+/// Writes points as a binary PLY (x, y, z, intensity) through PCL; with red, green and blue if any is coloured, where
+/// points that no camera saw are mid grey. @throws std::runtime_error if it cannot be written.
 void write_ply(const std::string& path, const std::vector<MapPoint>& points);
 
 }  // namespace plumbline

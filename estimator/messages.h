@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "estimator/geometry/lens_distortion.h"
 #include "estimator/geometry/pose.h"
 
 /// What a robot's drivers deliver. Times are integer nanoseconds; units SI; frames REP-103 except the camera's.
@@ -58,7 +59,7 @@ struct LidarScan {
   bool ends_sweep = true;  ///< the last part
 };
 
-/// Pinhole without distortion: u = fx x/z + cx, v = fy y/z + cy.
+/// u = fx x' + cx, v = fy y' + cy, where (x', y') is (x/z, y/z) as the lens distorts it.
 struct CameraIntrinsics {
   int width = 0;
   int height = 0;
@@ -66,6 +67,7 @@ struct CameraIntrinsics {
   double fy = 0.0;
   double cx = 0.0;
   double cy = 0.0;
+  LensDistortion distortion{};
 };
 
 /// Continuous-time densities and one-sigma turn-on biases, from the IMU's data sheet.
@@ -84,6 +86,14 @@ struct CameraNoise {
   double read_noise_dn = 0.34;
 };
 
+/// A camera besides the main one: its frames, grey or of depth, carry its id.
+struct FurtherCamera {
+  int camera_id = 1;
+  Pose body_from_camera;
+  CameraIntrinsics intrinsics;
+  double rate_hz = 50.0;
+};
+
 /// What an estimator is told about its sensors: extrinsics, intrinsics and data-sheet noise, nothing else.
 struct Calibration {
   double imu_rate_hz = 200.0;
@@ -94,6 +104,7 @@ struct Calibration {
   CameraIntrinsics camera;
   CameraNoise camera_noise;
   double camera_rate_hz = 50.0;
+  std::vector<FurtherCamera> further_cameras;  ///< the one above is camera 0
 
   bool has_lidar = true;
   Pose body_from_lidar;  ///< point_in_body = body_from_lidar * point_in_lidar

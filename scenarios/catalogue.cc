@@ -62,28 +62,6 @@ std::vector<std::string> catalogue_names(const std::string& kind) {
   return names;
 }
 
-CameraModel catalogue_camera(const std::string& name) {
-  CameraModel model;
-  model.name = name;
-  read_device(name, "camera", [&](ConfigReader& reader) {
-    reader.read("width", model.width, {16.0, 8192.0});
-    reader.read("height", model.height, {16.0, 8192.0});
-    reader.read("horizontal_fov_deg", model.horizontal_fov_deg, {1.0, 170.0});
-    reader.read("rate_hz", model.rate_hz, {0.1, 1000.0});
-    reader.read("electrons_per_dn", model.electrons_per_dn, {0.1, 1e4});
-    reader.read("read_noise_electrons", model.read_noise_electrons, {0.0, 1e4});
-    reader.read("full_well_electrons", model.full_well_electrons, {100.0, 1e7});
-    reader.read("f_number", model.f_number, {0.5, 64.0});
-    reader.read("electrons_per_lux_second", model.electrons_per_lux_second, {1.0, 1e8});
-    reader.read("black_level_dn", model.black_level_dn, {0.0, 100.0});
-    read_scaled(reader, "min_exposure_us", kMicro, model.min_exposure_s, {1.0, 1e6});
-    read_scaled(reader, "max_exposure_ms", kMilli, model.max_exposure_s, {0.01, 1e4});
-    reader.read("max_gain", model.max_gain, {1.0, 100.0});
-    reader.read("target_dn", model.target_dn, {1.0, 254.0});
-  });
-  return model;
-}
-
 ImuModel catalogue_imu(const std::string& name) {
   ImuModel model;
   model.name = name;

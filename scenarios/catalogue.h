@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "sensors/camera.h"
+#include "sensors/camera_model.h"
+#include "sensors/depth_camera.h"
 #include "sensors/imu.h"
 #include "sensors/lidar.h"
 
@@ -12,7 +13,7 @@ namespace plumbline {
 /// A device of sensors/catalogue.
 struct CatalogueEntry {
   std::string name;
-  std::string kind;  ///< lidar, camera or imu
+  std::string kind;  ///< lidar, camera, depth_camera or imu
   std::string summary;
 };
 
@@ -25,6 +26,7 @@ std::vector<std::string> catalogue_names(const std::string& kind);
 /// Models as their files describe them. @throws InputError for a name that is not in the catalogue, or a bad file.
 LidarModel catalogue_lidar(const std::string& name);
 CameraModel catalogue_camera(const std::string& name);
+DepthCameraModel catalogue_depth_camera(const std::string& name);
 ImuModel catalogue_imu(const std::string& name);
 
 }  // namespace plumbline

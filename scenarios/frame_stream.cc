@@ -1,52 +1,74 @@
 #include "scenarios/frame_stream.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "scenarios/calibration.h"
 
 namespace plumbline {
 namespace {
 
-RenderView view_of(const CameraModel& model) {
-  const CameraIntrinsics intrinsics = intrinsics_of(model);
-  RenderView view;
-  view.width = intrinsics.width;
-  view.height = intrinsics.height;
-  view.fx = intrinsics.fx;
-  view.fy = intrinsics.fy;
-  view.cx = intrinsics.cx;
-  view.cy = intrinsics.cy;
-  return view;
-}
+// A frame reaches back from its stamp by half its exposure, at most half a period of the slowest camera.
+constexpr std::int64_t kKept_ns = 5'000'000'000;
+
+std::int64_t period_ns(double rate_hz) { return std::llround(1e9 / rate_hz); }
 
 }  // namespace
 
 FrameStream::FrameStream(const Scenario& scenario, const Surroundings& surroundings, const Trajectory& world_from_body)
     : scenario_(scenario),
+      surroundings_(surroundings),
       end_ns_(world_from_body.end_ns()),
-      driver_(surroundings.world, world_from_body),
-      renderer_(surroundings.world, view_of(scenario.rig.camera),
-                {.threads = 0, .depth = false, .own_body = surroundings.own_body}),
-      camera_(scenario.rig.camera, scenario.seed),
-      period_ns_(std::llround(1e9 / scenario.rig.camera.rate_hz)) {
-  camera_.noise_enabled = scenario.rig.camera_noise;
+      driver_(surroundings.world, world_from_body) {
+  add_grey_cameras();
+  if (scenario.rig.depth_camera) add_depth_camera(*scenario.rig.depth_camera);
+}
+
+Renderer& FrameStream::add_renderer(const RenderView& view, bool depth) {
+  const RendererOptions options{.threads = 0, .depth = depth, .own_body = surroundings_.own_body};
+  return *renderers_.emplace_back(std::make_unique<Renderer>(surroundings_.world, view, options));
+}
+
+void FrameStream::add_grey_cameras() {
+  const MountedCamera& mounted = scenario_.rig.camera;
+  Camera left(mounted.model, mounted.effects, scenario_.seed);
+  Renderer& renderer = add_renderer(left.view(), false);
+  add_grey_camera(mounted.pack_from_camera, std::move(left), kMainCamera, renderer);
+  if (!scenario_.rig.stereo_baseline_m) return;
+  add_grey_camera(pack_from_right_camera(scenario_.rig),
+                  Camera(mounted.model, mounted.effects, scenario_.seed, "right camera noise"), kRightCamera, renderer);
+}
+
+void FrameStream::add_grey_camera(const Pose& pack_from_camera, Camera camera, int camera_id, Renderer& renderer) {
+  const std::int64_t period = period_ns(camera.model().rate_hz);
+  const auto on_rig = std::make_shared<CameraOnRig>(FilmSet{scenario_, surroundings_, driver_}, pack_from_camera,
+                                                    std::move(camera), renderer);
+  sources_.push_back({period, [on_rig, camera_id](std::int64_t stamp_ns, std::int64_t frame) {
+                        return Payload(camera_frame(on_rig->take(stamp_ns, frame), stamp_ns, camera_id));
+                      }});
+}
+
+void FrameStream::add_depth_camera(const MountedDepthCamera& mounted) {
+  DepthCamera camera(mounted.model, mounted.effects, scenario_.seed, "depth camera noise");
+  Renderer& renderer = add_renderer(camera.view(), true);
+  sources_.push_back({period_ns(mounted.model.rate_hz), [this, &mounted, &renderer, camera = std::move(camera)](
+                                                            std::int64_t stamp_ns, std::int64_t frame) {
+                        const RadianceImage& picture =
+                            draw({scenario_, surroundings_, driver_}, renderer, mounted.pack_from_camera, stamp_ns);
+                        return Payload(camera.measure(picture, stamp_ns, kDepthCamera, frame));
+                      }});
 }
 
 std::unique_ptr<SensorMessage> FrameStream::next() {
-  const std::int64_t stamp_ns = frame_ * period_ns_ + period_ns_ / 2;
+  Source& source = *std::min_element(sources_.begin(), sources_.end(),
+                                     [](const Source& a, const Source& b) { return a.next_ns() < b.next_ns(); });
+  const std::int64_t stamp_ns = source.next_ns();
   if (stamp_ns > end_ns_) return nullptr;
-  auto message = timed_message([&] { return expose(stamp_ns); }, stamp_ns);
-  frame_ += scenario_.rig.decimation;
+  auto message = timed_message([&] { return source.take(stamp_ns, source.frame); }, stamp_ns);
+  source.frame += scenario_.rig.decimation;
+  driver_.forget_before(stamp_ns - kKept_ns);
   return message;
-}
-
-CameraFrame FrameStream::expose(std::int64_t stamp_ns) {
-  driver_.advance_to(stamp_ns);
-  RenderMoment moment;
-  moment.world_from_body = driver_.world_from_body().at(stamp_ns);
-  moment.world_from_camera = moment.world_from_body * scenario_.rig.pack_from_camera;
-  moment.light_factor = light_factor_at(scenario_.world.light_schedule, stamp_ns);
-  moment.time_s = 1e-9 * static_cast<double>(stamp_ns);
-  driver_.forget_before(stamp_ns);
-  return camera_.expose(renderer_.render(moment), stamp_ns, frame_);
 }
 
 }  // namespace plumbline

@@ -1,6 +1,6 @@
-#include <algorithm>
-
-#include "scenarios/catalogue_file.h"
+#include "scenarios/catalogue.h"
+#include "scenarios/mounting.h"
+#include "scenarios/read_camera.h"
 #include "scenarios/read_lidar.h"
 #include "scenarios/rig_reader.h"
 #include "scenarios/schema.h"
@@ -8,32 +8,16 @@
 namespace plumbline {
 namespace {
 
-constexpr Range kOffset_m{-10.0, 10.0};
-constexpr Range kAngle_deg{-180.0, 180.0};
 constexpr Range kDecimation{1.0, 10.0};
-constexpr Range kCameraRate_hz{1.0, 200.0};
 constexpr Range kImuRate_hz{50.0, 1000.0};
-constexpr Range kPixels{32.0, 4096.0};
-
-/// The six keys of a mounting: where the thing sits, and how it is turned.
-Pose read_mounting(ConfigReader& reader, Eigen::Vector3d position) {
-  Eigen::Vector3d rpy_deg = Eigen::Vector3d::Zero();
-  reader.read("x_m", position.x(), kOffset_m);
-  reader.read("y_m", position.y(), kOffset_m);
-  reader.read("z_m", position.z(), kOffset_m);
-  reader.read("roll_deg", rpy_deg.x(), kAngle_deg);
-  reader.read("pitch_deg", rpy_deg.y(), kAngle_deg);
-  reader.read("yaw_deg", rpy_deg.z(), kAngle_deg);
-  return {rotation_from_rpy(rpy_deg * kDegree), position};
-}
 
 /// What a rig is when a scenario says nothing of it.
 RigConfig default_rig() {
   RigConfig config;
   config.pack_from_lidar.translation = kDefaultLidarInPack;
-  config.pack_from_camera = {body_from_optical_rotation(), kDefaultCameraInPack};
+  config.camera.pack_from_camera = {body_from_optical_rotation(), kDefaultCameraInPack};
   config.lidar = catalogue_lidar("vlp16");
-  config.camera = catalogue_camera("wide640");
+  config.camera.model = catalogue_camera("wide640");
   config.imu = catalogue_imu("bmi055");
   return config;
 }
@@ -41,18 +25,6 @@ RigConfig default_rig() {
 void read_lidar(ConfigReader& reader, RigConfig& config) {
   config.pack_from_lidar = read_mounting(reader, kDefaultLidarInPack);
   read_lidar_device(reader, config);
-}
-
-void read_camera(ConfigReader& reader, RigConfig& config) {
-  config.pack_from_camera = read_mounting(reader, kDefaultCameraInPack);
-  config.pack_from_camera.rotation = config.pack_from_camera.rotation * body_from_optical_rotation();
-  read_model(reader, "camera", catalogue_camera, config.camera);
-  reader.read("rate_hz", config.camera.rate_hz, kCameraRate_hz);
-  config.camera.max_exposure_s = std::min(config.camera.max_exposure_s, 1.0 / config.camera.rate_hz);
-  reader.read("width", config.camera.width, kPixels);
-  reader.read("height", config.camera.height, kPixels);
-  reader.read("noise", config.camera_noise);
-  check_model(reader, config.camera);
 }
 
 void read_imu(ConfigReader& reader, RigConfig& config) {
@@ -69,7 +41,7 @@ void read_rig(ConfigReader& reader, RigConfig& config) {
   config.vehicle_from_pack = read_mounting(reader, Eigen::Vector3d::Zero());
   reader.read("decimation", config.decimation, kDecimation);
   reader.section("lidar", [&](ConfigReader& lidar) { read_lidar(lidar, config); });
-  reader.section("camera", [&](ConfigReader& camera) { read_camera(camera, config); });
+  read_cameras(reader, config);
   reader.section("imu", [&](ConfigReader& imu) { read_imu(imu, config); });
 }
 

@@ -41,8 +41,10 @@ void Recorder::deliver(const ImuSample& sample) {
 
 void Recorder::deliver(const CameraFrame& frame) {
   add(Module::kVision, frame.stamp_ns, frame);
-  take_snapshot(frame);
+  if (frame.camera_id == 0) take_snapshot(frame);
 }
+
+void Recorder::deliver(const DepthFrame& frame) { add(Module::kVision, frame.stamp_ns, frame); }
 
 void Recorder::deliver(const LidarScan& scan) { add(Module::kLidar, scan.end_ns, scan); }
 

@@ -15,6 +15,7 @@ class Recorder {
 
   void deliver(const ImuSample& sample);
   void deliver(const CameraFrame& frame);
+  void deliver(const DepthFrame& frame);
   void deliver(const LidarScan& scan);
   void add_truth(std::int64_t stamp_ns, const Pose& world_from_body);
   void add_sensors_wall(double wall_s) { record_.sensors_wall_s += wall_s; }

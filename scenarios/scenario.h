@@ -9,7 +9,8 @@
 
 #include "estimator/estimator.h"
 #include "scenarios/input_error.h"
-#include "sensors/camera.h"
+#include "sensors/camera_model.h"
+#include "sensors/depth_camera.h"
 #include "sensors/imu.h"
 #include "sensors/lidar.h"
 #include "sim/motion.h"
@@ -38,19 +39,32 @@ struct Expectation {
 inline const Eigen::Vector3d kDefaultLidarInPack{0.0, 0.0, 0.1};
 inline const Eigen::Vector3d kDefaultCameraInPack{0.1, 0.0, 0.0};
 
+/// Cameras on the pack, in their optical frames.
+struct MountedCamera {
+  Pose pack_from_camera;
+  CameraModel model;
+  CameraEffects effects;
+};
+struct MountedDepthCamera {
+  Pose pack_from_camera;
+  DepthCameraModel model;
+  DepthCameraEffects effects;
+};
+
 /// The pack of sensors on the vehicle. The pack's origin is the body, where the IMU sits:
 /// world_from_body = world_from_vehicle * vehicle_from_pack, point_in_body = pack_from_lidar * point_in_lidar.
 struct RigConfig {
   int decimation = 1;  ///< 2 drops every other message of all sensors
   Pose vehicle_from_pack;
   Pose pack_from_lidar;
-  Pose pack_from_camera;
   LidarModel lidar;
-  CameraModel camera;
+  MountedCamera camera;                            ///< the estimator's: camera 0
+  std::optional<double> stereo_baseline_m;         ///< camera 1, the same device to the right of camera 0
+  std::optional<MountedDepthCamera> depth_camera;  ///< camera 2
+  std::optional<MountedCamera> colour_camera;      ///< colours the map
   ImuModel imu;
   LidarEffects lidar_effects;
   LidarReturns lidar_returns = LidarReturns::kStrongest;
-  bool camera_noise = true;  ///< false: exact, for tests
   bool imu_noise = true;
 };
 

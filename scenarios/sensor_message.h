@@ -13,7 +13,7 @@ namespace plumbline {
 
 /// A message of the sensors that are costly to simulate; the IMU is not among them.
 struct SensorMessage {
-  std::variant<CameraFrame, LidarScan> payload;
+  std::variant<CameraFrame, DepthFrame, LidarScan> payload;
   std::int64_t delivery_ns = 0;  ///< when a driver hands it over: an image at its stamp, a scan at its end
   double wall_s = 0.0;           ///< that making it took
 };

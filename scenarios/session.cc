@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "scenarios/calibration.h"
+#include "scenarios/map_colouring.h"
 #include "scenarios/recorder.h"
 #include "scenarios/sensor_stream.h"
 #include "sim/rig_driver.h"
@@ -101,7 +102,9 @@ RunRecord run_session(const Scenario& scenario, const World& world, const RaySce
   MessageSource source = options.threads > 1 ? make_read_ahead_source(scenario, surroundings, world_from_body)
                                              : make_source(scenario, surroundings, world_from_body);
   run(scenario, world_from_body, std::move(source), options, recorder);
-  return recorder.finish();
+  RunRecord record = recorder.finish();
+  colour_map(scenario, surroundings, world_from_body, record);
+  return record;
 }
 
 }  // namespace plumbline

@@ -1,59 +1,57 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
+#include <string_view>
+#include <vector>
 
-#include "estimator/messages.h"
+#include "sensors/camera_model.h"
+#include "sensors/lens.h"
 #include "sim/renderer.h"
 
 namespace plumbline {
 
-/// A global-shutter grey camera: pinhole, auto exposure, shot and read noise in linear light, 8-bit output.
-struct CameraModel {
-  std::string name = "wide640";
-  int width = 640;
-  int height = 360;
-  double horizontal_fov_deg = 68.0;
-  double rate_hz = 50.0;
-  double electrons_per_dn = 85.0;  ///< at unit gain; EuRoC MT9V034 as measured
-  double read_noise_electrons = 29.0;
-  double full_well_electrons = 21600.0;
-  double f_number = 2.0;
-  double electrons_per_lux_second = 7.36e4;  ///< in a pixel, per lux on the sensor; see camera.cc for the derivation
-  double black_level_dn = 5.0;               ///< what darkness reads, so that its noise is not cut off at 0
-  double min_exposure_s = 50e-6;
-  double max_exposure_s = 8e-3;
-  double max_gain = 4.0;     ///< analogue, after the exposure is exhausted
-  double target_dn = 100.0;  ///< mean grey value that auto exposure aims at
-};
-
-/// @throws std::invalid_argument naming the field that is out of range.
-void validate_or_throw(const CameraModel& model);
-CameraIntrinsics intrinsics_of(const CameraModel& model);
-
-/// Turns linear luminance into 8-bit frames. Auto exposure reacts to the previous frame, so frames come in order.
+/// Pictures of linear luminance in, frames of the sensor out. A frame's light may come as several pictures, taken at
+/// parts of its exposure (see shutter.h): begin(), add() each of them in order, read_out(). Auto exposure reacts to
+/// earlier frames, so frames come in order.
 class Camera {
  public:
-  /// @param seed  of this camera alone: two cameras with one seed would share their noise
-  Camera(CameraModel model, std::uint64_t seed);
+  /// @param seed  the scenario's
+  /// @param name  of this camera on its rig: two cameras of one name would share their noise
+  /// @throws std::invalid_argument for a model that cannot be
+  Camera(CameraModel model, const CameraEffects& effects, std::uint64_t seed, std::string_view name = "camera noise");
 
-  /// Deterministic in (seed, frame_index) and the exposure, which follows from the frames so far.
-  /// @throws std::invalid_argument if the image's size is not the model's
-  CameraFrame expose(const RadianceImage& image, std::int64_t stamp_ns, std::int64_t frame_index);
+  /// What to draw for it.
+  const RenderView& view() const { return lens_.view(); }
+  /// Of the next frame.
+  const ExposureSettings& settings() const { return auto_exposure_.next(); }
+  Shutter shutter() const { return shutter_of(model_, effects_, settings().exposure_s); }
+
+  /// Starts a frame of so many pictures.
+  void begin(int pictures);
+  /// @throws std::invalid_argument if the picture's size is not the view's, or a colour camera's has no colour
+  void add(const RadianceImage& picture);
+  /// The converter's output. Deterministic in (seed, name, frame_index) and the exposure, which follows from the frames
+  /// so far.
+  RawImage read_out(std::int64_t frame_index);
+
+  /// A frame of one picture.
+  RawImage expose(const RadianceImage& picture, std::int64_t frame_index);
 
   const CameraModel& model() const { return model_; }
-  /// Of the next frame.
-  double exposure_s() const { return exposure_s_; }
-  double gain() const { return gain_; }
-  bool noise_enabled = true;
 
  private:
-  void adapt_exposure(double mean_dn);
-
   CameraModel model_;
+  CameraEffects effects_;
   std::uint64_t seed_ = 0;
-  double exposure_s_ = 2e-3;
-  double gain_ = 1.0;
+  Lens lens_;
+  AutoExposure auto_exposure_;
+  int pictures_ = 1;
+  int taken_ = 0;
+  std::vector<float> light_;  ///< mean luminance [cd/m^2], then electrons, of every pixel and channel
+  std::vector<float> row_weights_;
 };
+
+/// The 8-bit message of a grey camera.
+CameraFrame camera_frame(const RawImage& raw, std::int64_t stamp_ns, int camera_id);
 
 }  // namespace plumbline

@@ -1,6 +1,10 @@
+#include <pcl/PCLPointCloud2.h>
+#include <pcl/common/io.h>
+#include <pcl/conversions.h>
 #include <pcl/io/ply_io.h>
 #include <pcl/point_types.h>
 
+#include <algorithm>
 #include <fstream>
 #include <stdexcept>
 
@@ -16,9 +20,8 @@ void write_empty_ply(const std::string& path) {
   if (!file.flush()) throw std::runtime_error(path + ": cannot be written");
 }
 
-}  // namespace
-
-void write_ply(const std::string& path, const std::vector<MapPoint>& points) {
+/// Positions and intensities.
+pcl::PCLPointCloud2 plain_cloud(const std::vector<MapPoint>& points) {
   pcl::PointCloud<pcl::PointXYZI> cloud;
   cloud.reserve(points.size());
   for (const MapPoint& point : points) {
@@ -27,11 +30,43 @@ void write_ply(const std::string& path, const std::vector<MapPoint>& points) {
     p.intensity = point.intensity;
     cloud.push_back(p);
   }
+  pcl::PCLPointCloud2 fields;
+  pcl::toPCLPointCloud2(cloud, fields);
+  return fields;
+}
+
+/// Colours alone, to be put beside the above.
+pcl::PCLPointCloud2 colour_cloud(const std::vector<MapPoint>& points) {
+  constexpr std::uint8_t kUnseen = 128;
+  pcl::PointCloud<pcl::RGB> cloud;
+  cloud.reserve(points.size());
+  for (const MapPoint& point : points) {
+    pcl::RGB p;
+    p.r = point.coloured ? point.colour[0] : kUnseen;
+    p.g = point.coloured ? point.colour[1] : kUnseen;
+    p.b = point.coloured ? point.colour[2] : kUnseen;
+    cloud.push_back(p);
+  }
+  pcl::PCLPointCloud2 fields;
+  pcl::toPCLPointCloud2(cloud, fields);
+  return fields;
+}
+
+}  // namespace
+
+void write_ply(const std::string& path, const std::vector<MapPoint>& points) {
   // PCL refuses to write a cloud without points; a run without scan matching has just that.
   if (points.empty()) return write_empty_ply(path);
+  pcl::PCLPointCloud2 cloud = plain_cloud(points);
+  if (std::any_of(points.begin(), points.end(), [](const MapPoint& point) { return point.coloured; })) {
+    pcl::PCLPointCloud2 coloured;
+    pcl::concatenateFields(cloud, colour_cloud(points), coloured);
+    cloud = std::move(coloured);
+  }
   // The camera element that PCL adds by default confuses other readers.
   pcl::PLYWriter writer;
-  if (writer.write(path, cloud, /*binary=*/true, /*use_camera=*/false) != 0) {
+  if (writer.write(path, cloud, Eigen::Vector4f::Zero(), Eigen::Quaternionf::Identity(), /*binary=*/true,
+                   /*use_camera=*/false) != 0) {
     throw std::runtime_error(path + ": cannot be written");
   }
 }

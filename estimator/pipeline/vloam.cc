@@ -116,6 +116,7 @@ void Vloam::advance_to(std::int64_t stamp_ns, const InertialSegment& segment) {
 
 void Vloam::add(const CameraFrame& frame) {
   if (!config_.vision_enabled || !calibration_.has_camera) return drop(Module::kVision, "disabled");
+  if (frame.camera_id != 0) return drop(Module::kVision, "further cameras are not used");
   const CameraIntrinsics& camera = calibration_.camera;
   const auto pixels = static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
   if (frame.width != camera.width || frame.height != camera.height || frame.pixels.size() != pixels) {

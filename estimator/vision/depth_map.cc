@@ -7,6 +7,7 @@
 #include <nanoflann.hpp>
 
 #include "estimator/geometry/interpolation.h"
+#include "estimator/vision/lens_pixels.h"
 
 namespace plumbline {
 namespace {
@@ -109,6 +110,7 @@ struct DepthMap::Impl {
   };
 
   CameraIntrinsics camera;
+  PixelBounds bounds;
   DepthMapConfig config;
   std::deque<Scan> scans;  // oldest first
   AngularPoints view;
@@ -127,6 +129,7 @@ struct DepthMap::Impl {
 
 DepthMap::DepthMap(const CameraIntrinsics& camera, const DepthMapConfig& config) : impl_(std::make_unique<Impl>()) {
   impl_->camera = camera;
+  impl_->bounds = pinhole_bounds(camera);
   impl_->config = config;
 }
 DepthMap::DepthMap(DepthMap&&) noexcept = default;
@@ -142,7 +145,8 @@ void DepthMap::add(std::int64_t stamp_ns, const std::vector<Eigen::Vector3f>& po
   float least_cosine = -1.0F;
   if (world_from_camera) {
     const auto& c = impl_->camera;
-    const double half_diagonal = std::atan(std::hypot(0.5 * c.width / c.fx, 0.5 * c.height / c.fy));
+    const Eigen::Vector2d extent = impl_->bounds.most - impl_->bounds.least;
+    const double half_diagonal = std::atan(std::hypot(0.5 * extent.x() / c.fx, 0.5 * extent.y() / c.fy));
     origin = world_from_camera->translation.cast<float>();
     axis = (world_from_camera->rotation * Eigen::Vector3d::UnitZ()).cast<float>();
     least_cosine = static_cast<float>(std::cos(std::min(M_PI, half_diagonal + kInsertionMargin)));
@@ -169,10 +173,11 @@ void DepthMap::Impl::gather_view(const Pose& world_from_camera) {
   view.positions.clear();
   const double cell = std::tan(config.angular_spacing_deg * kDegree);
   const double margin = std::tan(config.max_neighbour_angle_deg * kDegree);
-  const double left = -camera.cx / camera.fx - margin;
-  const double top = -camera.cy / camera.fy - margin;
-  const int columns = static_cast<int>((camera.width / camera.fx + 2.0 * margin) / cell) + 1;
-  const int rows = static_cast<int>((camera.height / camera.fy + 2.0 * margin) / cell) + 1;
+  const double left = (bounds.least.x() - camera.cx) / camera.fx - margin;
+  const double top = (bounds.least.y() - camera.cy) / camera.fy - margin;
+  const Eigen::Vector2d extent = bounds.most - bounds.least;
+  const int columns = static_cast<int>((extent.x() / camera.fx + 2.0 * margin) / cell) + 1;
+  const int rows = static_cast<int>((extent.y() / camera.fy + 2.0 * margin) / cell) + 1;
   cell_taken.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0);
 
   const Pose camera_from_world = world_from_camera.inverse();

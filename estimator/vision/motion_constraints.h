@@ -56,6 +56,7 @@ PixelRow epipolar_row(const CameraMotion& motion, const CameraIntrinsics& camera
 /// How far the feature moved in the image beyond what the rotation explains [px].
 double parallax_px(const CameraMotion& motion, const CameraIntrinsics& camera, const FeatureSighting& feature);
 
+/// The ideal pinhole's pixels: what is here never distorts.
 Eigen::Vector2d project(const CameraIntrinsics& camera, const Eigen::Vector3d& point_in_camera);
 /// The ray through a pixel, normalised so that z = 1.
 Eigen::Vector3d ray_through(const CameraIntrinsics& camera, const Eigen::Vector2d& pixel);

@@ -8,6 +8,7 @@
 #include "estimator/vision/corner_detector.h"
 #include "estimator/vision/depth_map.h"
 #include "estimator/vision/feature_tracker.h"
+#include "estimator/vision/lens_pixels.h"
 #include "estimator/vision/motion_constraints.h"
 #include "estimator/vision/triangulation.h"
 
@@ -24,7 +25,8 @@ constexpr double kAnchorMaxScaleChange = 0.08;
 constexpr double kAnchorMaxRoll = 0.1;  // [rad]
 
 struct Feature {
-  FeatureSighting sighting;
+  FeatureSighting sighting;                         ///< in pixels of the ideal pinhole
+  Eigen::Vector2f pixel = Eigen::Vector2f::Zero();  ///< now, in the image as it came; so are the next two
   Eigen::Vector2f keyframe_pixel = Eigen::Vector2f::Zero();
   Eigen::Vector2f anchor_pixel = Eigen::Vector2f::Zero();
   double anchor_scale = 1.0;  ///< z^c / z^l when the anchor was taken
@@ -158,7 +160,7 @@ std::vector<TrackedFeature> VisualOdometry::features() const {
   std::vector<TrackedFeature> tracked;
   tracked.reserve(impl_->features.size());
   for (const Feature& f : impl_->features) {
-    tracked.push_back({f.sighting.pixel.cast<float>(), f.keyframe_pixel, f.depth_source, f.inlier});
+    tracked.push_back({f.pixel, f.keyframe_pixel, f.depth_source, f.inlier});
   }
   return tracked;
 }
@@ -187,7 +189,7 @@ std::vector<Eigen::Vector2f> VisualOdometry::Impl::predict(const Pose& predicted
               f.sighting.depth.mean * from_keyframe.camera_from_keyframe_translation;
     }
     const bool in_front = point.z() > 0.05;
-    predicted.push_back((in_front ? project(camera, point) : f.sighting.pixel).cast<float>());
+    predicted.push_back(in_front ? image_pixel(camera, project(camera, point)) : f.pixel);
   }
   return predicted;
 }
@@ -202,7 +204,8 @@ void VisualOdometry::Impl::track(const Pose& predicted_keyframe_from_body) {
   for (std::size_t i = 0; i < tracks.pixels.size(); ++i) {
     if (tracks.found[i] == 0) continue;
     features[kept] = features[i];
-    features[kept++].sighting.pixel = tracks.pixels[i].cast<double>();
+    features[kept].pixel = tracks.pixels[i];
+    features[kept++].sighting.pixel = pinhole_pixel(camera, tracks.pixels[i]);
   }
   features.resize(kept);
 }
@@ -266,7 +269,7 @@ void VisualOdometry::Impl::renew_anchor() {
   tracker.anchor_here();
   anchor_roll = roll;
   for (Feature& f : features) {
-    f.anchor_pixel = f.sighting.pixel.cast<float>();
+    f.anchor_pixel = f.pixel;
     f.anchor_scale = scale_of(motion, f);
   }
 }
@@ -275,7 +278,7 @@ void VisualOdometry::Impl::renew_anchor() {
 double VisualOdometry::Impl::overlap() const {
   if (features.empty()) return 0.0;
   Eigen::Vector2d shift = Eigen::Vector2d::Zero();
-  for (const Feature& f : features) shift += f.sighting.pixel - f.keyframe_pixel.cast<double>();
+  for (const Feature& f : features) shift += (f.pixel - f.keyframe_pixel).cast<double>();
   shift /= static_cast<double>(features.size());
   return (1.0 - std::abs(shift.x()) / camera.width) * (1.0 - std::abs(shift.y()) / camera.height);
 }
@@ -296,7 +299,7 @@ void VisualOdometry::Impl::carry_tracks_into_new_keyframe(const Pose& world_from
     }
     f.triangulated = carried_along(f.triangulated, motion, f.sighting.keyframe_ray);
     f.sighting.keyframe_ray = ray_through(camera, f.sighting.pixel);
-    f.keyframe_pixel = f.anchor_pixel = f.sighting.pixel.cast<float>();
+    f.keyframe_pixel = f.anchor_pixel = f.pixel;
     f.anchor_scale = 1.0;
   }
 }
@@ -312,8 +315,8 @@ void VisualOdometry::Impl::refill() {
   const GreyView image = tracker.image();
   for (const Corner& corner : find_corners(image, image_noise_dn(image, noise), occupied, options)) {
     Feature f;
-    f.keyframe_pixel = f.anchor_pixel = corner.pixel;
-    f.sighting.pixel = corner.pixel.cast<double>();
+    f.pixel = f.keyframe_pixel = f.anchor_pixel = corner.pixel;
+    f.sighting.pixel = pinhole_pixel(camera, corner.pixel);
     f.sighting.keyframe_ray = ray_through(camera, f.sighting.pixel);
     f.sighting.pixel_sigma = std::hypot(config.pixel_sigma_px, corner.noise_sigma_px);
     features.push_back(f);

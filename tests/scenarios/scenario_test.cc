@@ -44,7 +44,7 @@ TEST_F(ScenarioFile, NeedsNothingButWayPoints) {
   EXPECT_EQ(scenario.estimator_name, "vloam");
   EXPECT_EQ(scenario.rig.lidar.beams.size(), 16U);
   EXPECT_TRUE(scenario.rig.pack_from_lidar.translation.isApprox(Eigen::Vector3d(0, 0, 0.1)));
-  EXPECT_TRUE(scenario.rig.pack_from_camera.translation.isApprox(Eigen::Vector3d(0.1, 0, 0)));
+  EXPECT_TRUE(scenario.rig.camera.pack_from_camera.translation.isApprox(Eigen::Vector3d(0.1, 0, 0)));
 }
 
 TEST_F(ScenarioFile, SwitchesEachEffectOfTheLidarOffOnItsOwn) {
@@ -118,9 +118,9 @@ expect: {status: ok, drift_percent: {max: 0.5}, progress_ratio: {min: 0.98, max:
   EXPECT_EQ(scenario.motion.waypoints[1].speed_mps, 4.0);
   EXPECT_EQ(scenario.rig.decimation, 2);
   EXPECT_FALSE(scenario.rig.lidar_effects.range_noise);
-  EXPECT_TRUE(scenario.rig.camera_noise);
+  EXPECT_TRUE(scenario.rig.camera.effects.shot_noise);
   EXPECT_EQ(scenario.rig.lidar.rate_hz, 5.0);
-  EXPECT_EQ(scenario.rig.camera.width, 320);
+  EXPECT_EQ(scenario.rig.camera.model.width, 320);
   EXPECT_EQ(scenario.rig.imu.rate_hz, 100.0);
   EXPECT_EQ(scenario.estimator_name, "imu");
   EXPECT_FALSE(scenario.estimator.vision_enabled);
@@ -134,7 +134,7 @@ TEST_F(ScenarioFile, PositivePitchLooksDownAndTheCameraLooksForward) {
   const Scenario scenario = load(kMotion + "rig: {pitch_deg: 90, camera: {yaw_deg: 90}}\n");
   const Eigen::Vector3d down = scenario.rig.vehicle_from_pack.rotation * Eigen::Vector3d::UnitX();
   EXPECT_TRUE(down.isApprox(-Eigen::Vector3d::UnitZ(), 1e-12));
-  const Eigen::Vector3d left = scenario.rig.pack_from_camera.rotation * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d left = scenario.rig.camera.pack_from_camera.rotation * Eigen::Vector3d::UnitZ();
   EXPECT_TRUE(left.isApprox(Eigen::Vector3d::UnitY(), 1e-12));
 }
 
