@@ -2,19 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <functional>
 
-#include "scenarios/config_reader.h"
+#include "scenarios/catalogue_file.h"
 #include "scenarios/input_error.h"
 #include "scenarios/yaml_reader.h"
 
 namespace plumbline {
 namespace {
-
-constexpr double kMicro = 1e-6;
-constexpr double kMilli = 1e-3;
-constexpr double kDegree = M_PI / 180.0;
-constexpr double kMicroG = 9.80665e-6;
 
 std::filesystem::path catalogue_directory() { return PLUMBLINE_CATALOGUE_DIR; }
 
@@ -26,6 +20,8 @@ CatalogueEntry read_header(ConfigReader& reader, const std::string& name) {
   return entry;
 }
 
+}  // namespace
+
 void read_device(const std::string& name, const std::string& kind,
                  const std::function<void(ConfigReader&)>& read_keys) {
   const std::filesystem::path path = catalogue_directory() / (name + ".yaml");
@@ -36,7 +32,6 @@ void read_device(const std::string& name, const std::string& kind,
   reader.finish();
 }
 
-/// The conversion from a file's unit, which stands in the key, to SI.
 void read_scaled(ConfigReader& reader, const std::string& key, double unit, double& value, Range range) {
   double in_unit = 0.0;
   if (reader.read(key, in_unit, range)) value = in_unit * unit;
@@ -46,8 +41,6 @@ void read_scaled(ConfigReader& reader, const std::string& key, double unit, std:
   if (!reader.read(key, values, range)) return;
   for (double& value : values) value *= unit;
 }
-
-}  // namespace
 
 std::vector<CatalogueEntry> sensor_catalogue() {
   std::vector<CatalogueEntry> entries;
@@ -106,21 +99,6 @@ CameraModel catalogue_camera(const std::string& name) {
     read_scaled(reader, "max_exposure_ms", kMilli, model.max_exposure_s, {0.01, 1e4});
     reader.read("max_gain", model.max_gain, {1.0, 100.0});
     reader.read("target_dn", model.target_dn, {1.0, 254.0});
-  });
-  return model;
-}
-
-ImuModel catalogue_imu(const std::string& name) {
-  ImuModel model;
-  model.name = name;
-  read_device(name, "imu", [&](ConfigReader& reader) {
-    reader.read("rate_hz", model.rate_hz, {10.0, 2000.0});
-    read_scaled(reader, "gyro_density_deg_per_s_sqrt_hz", kDegree, model.noise.gyro_density, {0.0, 10.0});
-    read_scaled(reader, "accel_density_ug_per_sqrt_hz", kMicroG, model.noise.accel_density, {0.0, 1e5});
-    reader.read("gyro_random_walk", model.noise.gyro_random_walk, {0.0, 1.0});
-    reader.read("accel_random_walk", model.noise.accel_random_walk, {0.0, 10.0});
-    read_scaled(reader, "gyro_turn_on_deg_per_s", kDegree, model.noise.gyro_turn_on_sigma, {0.0, 100.0});
-    reader.read("accel_turn_on_mps2", model.noise.accel_turn_on_sigma, {0.0, 10.0});
   });
   return model;
 }

@@ -1,7 +1,8 @@
 #include <algorithm>
 
-#include "scenarios/catalogue.h"
-#include "scenarios/input_error.h"
+#include "scenarios/catalogue_file.h"
+#include "scenarios/read_imu.h"
+#include "scenarios/rig_reader.h"
 #include "scenarios/schema.h"
 
 namespace plumbline {
@@ -12,9 +13,7 @@ constexpr Range kAngle_deg{-180.0, 180.0};
 constexpr Range kDecimation{1.0, 10.0};
 constexpr Range kLidarRate_hz{1.0, 50.0};
 constexpr Range kCameraRate_hz{1.0, 200.0};
-constexpr Range kImuRate_hz{50.0, 1000.0};
 constexpr Range kPixels{32.0, 4096.0};
-constexpr double kDegree = M_PI / 180.0;
 
 /// The six keys of a mounting: where the thing sits, and how it is turned.
 Pose read_mounting(ConfigReader& reader, Eigen::Vector3d position) {
@@ -26,25 +25,6 @@ Pose read_mounting(ConfigReader& reader, Eigen::Vector3d position) {
   reader.read("pitch_deg", rpy_deg.y(), kAngle_deg);
   reader.read("yaw_deg", rpy_deg.z(), kAngle_deg);
   return {rotation_from_rpy(rpy_deg * kDegree), position};
-}
-
-/// Replaces a model by the catalogue's of that name.
-template <typename Model>
-void read_model(ConfigReader& reader, const std::string& kind, Model (*from_catalogue)(const std::string&),
-                Model& model) {
-  const std::vector<std::string> names = catalogue_names(kind);
-  std::size_t index = 0;
-  if (reader.read_choice("model", names, index)) model = from_catalogue(names[index]);
-}
-
-/// The model's own rules, which know how its figures hang together.
-template <typename Model>
-void check_model(const ConfigReader& reader, const Model& model) {
-  try {
-    validate_or_throw(model);
-  } catch (const std::invalid_argument& error) {
-    throw InputError(reader.node().where + ": " + reader.path() + ": " + error.what());
-  }
 }
 
 /// What a rig is when a scenario says nothing of it.
@@ -76,13 +56,6 @@ void read_camera(ConfigReader& reader, RigConfig& config) {
   reader.read("height", config.camera.height, kPixels);
   reader.read("noise", config.camera_noise);
   check_model(reader, config.camera);
-}
-
-void read_imu(ConfigReader& reader, RigConfig& config) {
-  read_model(reader, "imu", catalogue_imu, config.imu);
-  reader.read("rate_hz", config.imu.rate_hz, kImuRate_hz);
-  reader.read("noise", config.imu_noise);
-  check_model(reader, config.imu);
 }
 
 }  // namespace
