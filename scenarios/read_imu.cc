@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "scenarios/catalogue_file.h"
+#include "scenarios/read_sensor_errors.h"
 #include "scenarios/rig_reader.h"
 
 namespace plumbline {
@@ -49,6 +50,7 @@ void read_imu(ConfigReader& reader, RigConfig& config) {
   reader.read("x_m", imu.position_in_body.x(), kOffset_m);
   reader.read("y_m", imu.position_in_body.y(), kOffset_m);
   reader.read("z_m", imu.position_in_body.z(), kOffset_m);
+  read_timing(reader, config.imu_timing);
   read_vector(reader, "gyro_bias_deg_per_s", kDegree, {-100.0, 100.0}, imu.gyro_turn_on_bias);
   read_vector(reader, "accel_bias_mps2", 1.0, {-10.0, 10.0}, imu.accel_turn_on_bias);
   read_vibration(reader, imu.vibration);

@@ -2,6 +2,7 @@
 
 #include "scenarios/catalogue_file.h"
 #include "scenarios/read_imu.h"
+#include "scenarios/read_sensor_errors.h"
 #include "scenarios/rig_reader.h"
 #include "scenarios/schema.h"
 
@@ -38,17 +39,23 @@ RigConfig default_rig() {
   return config;
 }
 
-void read_lidar(ConfigReader& reader, RigConfig& config) {
-  config.pack_from_lidar = read_mounting(reader, kDefaultLidarInPack);
+void read_lidar(ConfigReader& reader, std::uint64_t seed, RigConfig& config) {
+  config.told_lidar_from_lidar = read_miscalibration(reader, seed, "lidar");
+  config.pack_from_lidar = read_mounting(reader, kDefaultLidarInPack) * config.told_lidar_from_lidar;
+  read_timing(reader, config.lidar_timing);
   read_model(reader, "lidar", catalogue_lidar, config.lidar);
   reader.read("rate_hz", config.lidar.rate_hz, kLidarRate_hz);
   reader.read("noise", config.lidar_noise);
   check_model(reader, config.lidar);
 }
 
-void read_camera(ConfigReader& reader, RigConfig& config) {
-  config.pack_from_camera = read_mounting(reader, kDefaultCameraInPack);
-  config.pack_from_camera.rotation = config.pack_from_camera.rotation * body_from_optical_rotation();
+void read_camera(ConfigReader& reader, std::uint64_t seed, RigConfig& config) {
+  // Angles in a file are those of a mount with x forward; the camera looks along z.
+  const Pose mount_from_camera{body_from_optical_rotation(), Eigen::Vector3d::Zero()};
+  const Pose told_mount_from_mount = read_miscalibration(reader, seed, "camera");
+  config.told_camera_from_camera = mount_from_camera.inverse() * told_mount_from_mount * mount_from_camera;
+  config.pack_from_camera = read_mounting(reader, kDefaultCameraInPack) * told_mount_from_mount * mount_from_camera;
+  read_timing(reader, config.camera_timing);
   read_model(reader, "camera", catalogue_camera, config.camera);
   reader.read("rate_hz", config.camera.rate_hz, kCameraRate_hz);
   config.camera.max_exposure_s = std::min(config.camera.max_exposure_s, 1.0 / config.camera.rate_hz);
@@ -60,12 +67,12 @@ void read_camera(ConfigReader& reader, RigConfig& config) {
 
 }  // namespace
 
-void read_rig(ConfigReader& reader, RigConfig& config) {
+void read_rig(ConfigReader& reader, std::uint64_t seed, RigConfig& config) {
   config = default_rig();
   config.vehicle_from_pack = read_mounting(reader, Eigen::Vector3d::Zero());
   reader.read("decimation", config.decimation, kDecimation);
-  reader.section("lidar", [&](ConfigReader& lidar) { read_lidar(lidar, config); });
-  reader.section("camera", [&](ConfigReader& camera) { read_camera(camera, config); });
+  reader.section("lidar", [&](ConfigReader& lidar) { read_lidar(lidar, seed, config); });
+  reader.section("camera", [&](ConfigReader& camera) { read_camera(camera, seed, config); });
   reader.section("imu", [&](ConfigReader& imu) { read_imu(imu, config); });
 }
 

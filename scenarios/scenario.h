@@ -10,6 +10,8 @@
 #include "estimator/estimator.h"
 #include "scenarios/input_error.h"
 #include "sensors/camera.h"
+#include "sensors/clock.h"
+#include "sensors/faults.h"
 #include "sensors/imu.h"
 #include "sensors/lidar.h"
 #include "sim/motion.h"
@@ -38,8 +40,15 @@ struct Expectation {
 inline const Eigen::Vector3d kDefaultLidarInPack{0.0, 0.0, 0.1};
 inline const Eigen::Vector3d kDefaultCameraInPack{0.1, 0.0, 0.0};
 
-/// The pack of sensors on the vehicle. The pack's origin is the body, where the IMU sits:
-/// world_from_body = world_from_vehicle * vehicle_from_pack, point_in_body = pack_from_lidar * point_in_lidar.
+/// A sensor's clock and its messages' way to the estimator; as a scenario says nothing, perfect and without delay.
+struct SensorTiming {
+  ClockModel clock;
+  TransportModel transport;
+};
+
+/// The pack of sensors on the vehicle. The pack's origin is the body. The IMU sits there unless its model says
+/// otherwise: world_from_body = world_from_vehicle * vehicle_from_pack, point_in_body = pack_from_lidar *
+/// point_in_lidar.
 struct RigConfig {
   int decimation = 1;  ///< 2 drops every other message of all sensors
   Pose vehicle_from_pack;
@@ -48,6 +57,12 @@ struct RigConfig {
   LidarModel lidar;
   CameraModel camera;
   ImuModel imu;
+  SensorTiming lidar_timing;
+  SensorTiming camera_timing;
+  SensorTiming imu_timing;
+  /// Errors of the mounting that the estimator is told: pack_from_lidar = (what it is told) * told_lidar_from_lidar.
+  Pose told_lidar_from_lidar;
+  Pose told_camera_from_camera;
   bool lidar_noise = true;  ///< false: exact, for tests
   bool camera_noise = true;
   bool imu_noise = true;
@@ -63,6 +78,7 @@ struct Scenario {
   WorldConfig world;
   MotionConfig motion;
   RigConfig rig;
+  std::vector<Fault> faults;
   std::string estimator_name = "vloam";
   EstimatorConfig estimator;
   std::vector<Expectation> expect;
