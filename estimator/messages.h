@@ -70,7 +70,7 @@ struct CameraIntrinsics {
   LensDistortion distortion{};
 };
 
-/// Continuous-time densities and one-sigma turn-on biases, from the IMU's data sheet.
+/// Continuous-time densities, bias instabilities and one-sigma turn-on biases, from the IMU's data sheet.
 struct ImuNoise {
   double gyro_density = 2.4e-4;        ///< [rad/s/sqrt(Hz)]
   double accel_density = 1.5e-3;       ///< [m/s^2/sqrt(Hz)]
@@ -78,6 +78,9 @@ struct ImuNoise {
   double accel_random_walk = 1.0e-3;   ///< [m/s^3/sqrt(Hz)]
   double gyro_turn_on_sigma = 8.7e-3;  ///< [rad/s]
   double accel_turn_on_sigma = 0.2;    ///< [m/s^2]
+  /// Flicker noise; the Allan deviation's floor is 0.664 times this.
+  double gyro_bias_instability = 0.0;   ///< [rad/s]
+  double accel_bias_instability = 0.0;  ///< [m/s^2]
 };
 
 /// Variance of a pixel in 8-bit counts (DN): read_noise_dn^2 + DN / electrons_per_dn, plus 1/12 of rounding.

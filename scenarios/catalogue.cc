@@ -62,19 +62,4 @@ std::vector<std::string> catalogue_names(const std::string& kind) {
   return names;
 }
 
-ImuModel catalogue_imu(const std::string& name) {
-  ImuModel model;
-  model.name = name;
-  read_device(name, "imu", [&](ConfigReader& reader) {
-    reader.read("rate_hz", model.rate_hz, {10.0, 2000.0});
-    read_scaled(reader, "gyro_density_deg_per_s_sqrt_hz", kDegree, model.noise.gyro_density, {0.0, 10.0});
-    read_scaled(reader, "accel_density_ug_per_sqrt_hz", kMicro * kStandardG, model.noise.accel_density, {0.0, 1e5});
-    reader.read("gyro_random_walk", model.noise.gyro_random_walk, {0.0, 1.0});
-    reader.read("accel_random_walk", model.noise.accel_random_walk, {0.0, 10.0});
-    read_scaled(reader, "gyro_turn_on_deg_per_s", kDegree, model.noise.gyro_turn_on_sigma, {0.0, 100.0});
-    reader.read("accel_turn_on_mps2", model.noise.accel_turn_on_sigma, {0.0, 10.0});
-  });
-  return model;
-}
-
 }  // namespace plumbline

@@ -25,7 +25,7 @@ class FrameStream {
   std::unique_ptr<SensorMessage> next();
 
  private:
-  using Payload = decltype(SensorMessage::payload);
+  using Payload = SensorPayload;
 
   /// A camera's frames, half a period into each of its periods.
   struct Source {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "scenarios/mounting.h"
+#include "scenarios/read_sensor_errors.h"
 #include "scenarios/rig_reader.h"
 
 namespace plumbline {
@@ -69,6 +70,13 @@ void read_camera(ConfigReader& reader, MountedCamera& camera) {
   check_model(reader, camera.model);
 }
 
+/// @param told_mount_from_mount  of a mount with x forward, as a file's angles are; the camera looks along z
+void misplace(const Pose& told_mount_from_mount, MountedCamera& camera) {
+  const Pose mount_from_camera{body_from_optical_rotation(), Eigen::Vector3d::Zero()};
+  camera.told_camera_from_camera = mount_from_camera.inverse() * told_mount_from_mount * mount_from_camera;
+  camera.pack_from_camera = camera.pack_from_camera * camera.told_camera_from_camera;
+}
+
 void require_colour(const ConfigReader& reader, const MountedCamera& camera, bool colour) {
   if (camera.model.colour != colour) {
     fail_at(reader.node(), reader.path_of("model"), colour ? "a colour camera" : "a grey camera");
@@ -109,9 +117,11 @@ void read_lens_and_shutter(ConfigReader& reader, CameraModel& model) {
   model.rolling_shutter = shutter == 1;
 }
 
-void read_cameras(ConfigReader& rig, RigConfig& config) {
+void read_cameras(ConfigReader& rig, std::uint64_t seed, RigConfig& config) {
   rig.section("camera", [&](ConfigReader& reader) {
+    read_timing(reader, config.camera_timing);
     read_camera(reader, config.camera);
+    misplace(read_miscalibration(reader, seed, "camera"), config.camera);
     require_colour(reader, config.camera, false);
   });
   rig.section("stereo", [&](ConfigReader& reader) {

@@ -48,6 +48,11 @@ void Recorder::deliver(const DepthFrame& frame) { add(Module::kVision, frame.sta
 
 void Recorder::deliver(const LidarScan& scan) { add(Module::kLidar, scan.end_ns, scan); }
 
+void Recorder::lose(Module module, const std::string& reason) {
+  ++record_.messages[module].produced;
+  ++record_.messages[module].dropped[reason];
+}
+
 void Recorder::add_truth(std::int64_t stamp_ns, const Pose& world_from_body) {
   record_.ground_truth.push_back({stamp_ns, world_from_body});
 }
@@ -77,9 +82,9 @@ void Recorder::take_snapshot(const CameraFrame& frame) {
 RunRecord Recorder::finish() {
   guarded([&] {
     for (auto& [module, tally] : record_.messages) {
-      MessageCounts counts = estimator_.counts(module);
+      const MessageCounts counts = estimator_.counts(module);
       tally.used = counts.used;
-      tally.dropped = std::move(counts.dropped);
+      for (const auto& [reason, count] : counts.dropped) tally.dropped[reason] += count;
     }
     record_.map = estimator_.map();
   });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "scenarios/run_record.h"
 
@@ -17,6 +18,11 @@ class Recorder {
   void deliver(const CameraFrame& frame);
   void deliver(const DepthFrame& frame);
   void deliver(const LidarScan& scan);
+  /// Counts a message that never arrived.
+  void lose(const ImuSample&, const std::string& reason) { lose(Module::kImu, reason); }
+  void lose(const CameraFrame&, const std::string& reason) { lose(Module::kVision, reason); }
+  void lose(const DepthFrame&, const std::string& reason) { lose(Module::kVision, reason); }
+  void lose(const LidarScan&, const std::string& reason) { lose(Module::kLidar, reason); }
   void add_truth(std::int64_t stamp_ns, const Pose& world_from_body);
   void add_sensors_wall(double wall_s) { record_.sensors_wall_s += wall_s; }
 
@@ -30,6 +36,7 @@ class Recorder {
  private:
   template <typename Message>
   void add(Module module, std::int64_t stamp_ns, const Message& message);
+  void lose(Module module, const std::string& reason);
   void take();
   void take_snapshot(const CameraFrame& frame);
   /// Calls the estimator; returns the wall time [s].

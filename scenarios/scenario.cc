@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "scenarios/read_sensor_errors.h"
 #include "scenarios/scenario_files.h"
 #include "scenarios/schema.h"
 
@@ -37,10 +38,11 @@ void read_scenario(ConfigReader& reader, Scenario& scenario) {
   reader.section("world", [&](ConfigReader& world) { read_world(world, scenario.world); });
   const bool has_motion = reader.section("motion", [&](ConfigReader& motion) { read_motion(motion, scenario.motion); });
   if (!has_motion) fail_at(reader.node(), "motion", "a section motion with way-points");
-  if (!reader.section("rig", [&](ConfigReader& rig) { read_rig(rig, scenario.rig); })) {
+  if (!reader.section("rig", [&](ConfigReader& rig) { read_rig(rig, scenario.seed, scenario.rig); })) {
     ConfigReader nothing(kNoKeys, "rig");
-    read_rig(nothing, scenario.rig);
+    read_rig(nothing, scenario.seed, scenario.rig);
   }
+  if (const ConfigNode* faults = reader.find("faults")) read_faults(*faults, "faults", scenario.faults);
   reader.section("estimator", [&](ConfigReader& estimator) {
     read_estimator(estimator, scenario.estimator_name, scenario.estimator);
   });

@@ -10,7 +10,9 @@
 #include "estimator/estimator.h"
 #include "scenarios/input_error.h"
 #include "sensors/camera_model.h"
+#include "sensors/clock.h"
 #include "sensors/depth_camera.h"
+#include "sensors/faults.h"
 #include "sensors/imu.h"
 #include "sensors/lidar.h"
 #include "sim/motion.h"
@@ -42,6 +44,7 @@ inline const Eigen::Vector3d kDefaultCameraInPack{0.1, 0.0, 0.0};
 /// Cameras on the pack, in their optical frames.
 struct MountedCamera {
   Pose pack_from_camera;
+  Pose told_camera_from_camera;  ///< error of the mounting: pack_from_camera = (what the estimator is told) * this
   CameraModel model;
   CameraEffects effects;
 };
@@ -51,8 +54,15 @@ struct MountedDepthCamera {
   DepthCameraEffects effects;
 };
 
-/// The pack of sensors on the vehicle. The pack's origin is the body, where the IMU sits:
-/// world_from_body = world_from_vehicle * vehicle_from_pack, point_in_body = pack_from_lidar * point_in_lidar.
+/// A sensor's clock and its messages' way to the estimator; as a scenario says nothing, perfect and without delay.
+struct SensorTiming {
+  ClockModel clock;
+  TransportModel transport;
+};
+
+/// The pack of sensors on the vehicle. The pack's origin is the body. The IMU sits there unless its model says
+/// otherwise: world_from_body = world_from_vehicle * vehicle_from_pack, point_in_body = pack_from_lidar *
+/// point_in_lidar.
 struct RigConfig {
   int decimation = 1;  ///< 2 drops every other message of all sensors
   Pose vehicle_from_pack;
@@ -65,6 +75,10 @@ struct RigConfig {
   ImuModel imu;
   LidarEffects lidar_effects;
   LidarReturns lidar_returns = LidarReturns::kStrongest;
+  SensorTiming lidar_timing;
+  SensorTiming camera_timing;  ///< of all cameras
+  SensorTiming imu_timing;
+  Pose told_lidar_from_lidar;  ///< error of the mounting: pack_from_lidar = (what the estimator is told) * this
   bool imu_noise = true;
 };
 
@@ -78,6 +92,7 @@ struct Scenario {
   WorldConfig world;
   MotionConfig motion;
   RigConfig rig;
+  std::vector<Fault> faults;
   std::string estimator_name = "vloam";
   EstimatorConfig estimator;
   std::vector<Expectation> expect;

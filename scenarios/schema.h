@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,7 +14,8 @@ namespace plumbline {
 
 void read_world(ConfigReader& reader, WorldConfig& config);
 void read_motion(ConfigReader& reader, MotionConfig& config);
-void read_rig(ConfigReader& reader, RigConfig& config);
+/// @param seed  of what a rig draws once: its miscalibration
+void read_rig(ConfigReader& reader, std::uint64_t seed, RigConfig& config);
 void read_estimator(ConfigReader& reader, std::string& name, EstimatorConfig& config);
 void read_expect(ConfigReader& reader, std::vector<Expectation>& expect, std::optional<std::string>& status);
 

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -11,11 +12,14 @@
 
 namespace plumbline {
 
-/// A message of the sensors that are costly to simulate; the IMU is not among them.
+using SensorPayload = std::variant<ImuSample, CameraFrame, DepthFrame, LidarScan>;
+
+/// A message on its way from a sensor to the estimator.
 struct SensorMessage {
-  std::variant<CameraFrame, DepthFrame, LidarScan> payload;
-  std::int64_t delivery_ns = 0;  ///< when a driver hands it over: an image at its stamp, a scan at its end
+  SensorPayload payload;
+  std::int64_t delivery_ns = 0;  ///< when it is handed over: an image at its stamp, a scan at its end, or later
   double wall_s = 0.0;           ///< that making it took
+  std::string lost;              ///< why it does not arrive; empty if it does
 };
 
 /// The factor on all lamps at a time: of the latest step that has begun, 1 before the first.

@@ -7,6 +7,7 @@
 
 #include "scenarios/bounded_queue.h"
 #include "scenarios/frame_stream.h"
+#include "scenarios/imu_stream.h"
 #include "scenarios/scan_stream.h"
 
 namespace plumbline {
@@ -15,7 +16,7 @@ namespace {
 // A second of frames and scans: enough to even out the load, 16 MB at most.
 constexpr std::size_t kMessagesAhead = 60;
 
-/// Two sources as one, in order of delivery; the first goes first at one time.
+/// Two sources as one, in order of arrival; the first goes first at one time.
 class MergedSource {
  public:
   MergedSource(MessageSource first, MessageSource second)
@@ -71,6 +72,23 @@ class ReadAhead {
   std::thread thread_;
 };
 
+MessageSource linked(MessageSource source, FaultySensor sensor, const Scenario& scenario) {
+  return source_of(std::make_shared<SensorLink>(std::move(source), sensor, scenario));
+}
+
+MessageSource merged(MessageSource first, MessageSource second) {
+  return source_of(std::make_shared<MergedSource>(std::move(first), std::move(second)));
+}
+
+/// The costly sensors as they come, the IMU, and everyone's way to the estimator.
+MessageSource all_sensors(const Scenario& scenario, const Trajectory& world_from_body, MessageSource frames,
+                          MessageSource scans) {
+  MessageSource samples = source_of(std::make_shared<ImuStream>(scenario, world_from_body));
+  return merged(linked(std::move(samples), FaultySensor::kImu, scenario),
+                merged(linked(std::move(frames), FaultySensor::kCamera, scenario),
+                       linked(std::move(scans), FaultySensor::kLidar, scenario)));
+}
+
 }  // namespace
 
 double light_factor_at(const std::vector<LightStep>& schedule, std::int64_t stamp_ns) {
@@ -83,17 +101,17 @@ double light_factor_at(const std::vector<LightStep>& schedule, std::int64_t stam
 
 MessageSource make_source(const Scenario& scenario, const Surroundings& surroundings,
                           const Trajectory& world_from_body) {
-  return source_of(
-      std::make_shared<MergedSource>(source_of(std::make_shared<FrameStream>(scenario, surroundings, world_from_body)),
-                                     source_of(std::make_shared<ScanStream>(scenario, surroundings, world_from_body))));
+  return all_sensors(scenario, world_from_body,
+                     source_of(std::make_shared<FrameStream>(scenario, surroundings, world_from_body)),
+                     source_of(std::make_shared<ScanStream>(scenario, surroundings, world_from_body)));
 }
 
 MessageSource make_read_ahead_source(const Scenario& scenario, const Surroundings& surroundings,
                                      const Trajectory& world_from_body) {
   const auto frames = [&] { return source_of(std::make_shared<FrameStream>(scenario, surroundings, world_from_body)); };
   const auto scans = [&] { return source_of(std::make_shared<ScanStream>(scenario, surroundings, world_from_body)); };
-  return source_of(std::make_shared<MergedSource>(source_of(std::make_shared<ReadAhead>(frames)),
-                                                  source_of(std::make_shared<ReadAhead>(scans))));
+  return all_sensors(scenario, world_from_body, source_of(std::make_shared<ReadAhead>(frames)),
+                     source_of(std::make_shared<ReadAhead>(scans)));
 }
 
 }  // namespace plumbline

@@ -1,6 +1,7 @@
 #include "scenarios/session.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "scenarios/calibration.h"
@@ -22,49 +23,64 @@ auto as_input(const Scenario& scenario, Call call) {
   }
 }
 
-/// Delivers what is due before a time.
-class Delivery {
+/// The true poses of the IMU, which is the estimator's body, at every time that it measures.
+class TruthLog {
  public:
-  Delivery(MessageSource source, Recorder& recorder) : source_(std::move(source)), recorder_(recorder) { advance(); }
+  TruthLog(const Scenario& scenario, const Trajectory& world_from_body, const SessionOptions& options,
+           Recorder& recorder)
+      : world_from_body_(world_from_body),
+        body_from_imu_(Eigen::Quaterniond::Identity(), scenario.rig.imu.position_in_body),
+        period_ns_(std::llround(1e9 / scenario.rig.imu.rate_hz)),
+        count_(world_from_body.end_ns() / period_ns_),
+        options_(options),
+        recorder_(recorder) {}
 
-  void up_to(std::int64_t end_ns) {
-    while (next_ && next_->delivery_ns < end_ns && !recorder_.faulted()) {
-      std::visit([&](const auto& message) { recorder_.deliver(message); }, next_->payload);
-      advance();
+  /// Goes on to a time, included. @return false if the run is to end
+  bool up_to(std::int64_t stamp_ns) {
+    const std::int64_t samples_per_report = std::max<std::int64_t>(count_ / 200, 1);
+    while (logged_ < count_ && (logged_ + 1) * period_ns_ <= stamp_ns) {
+      const std::int64_t next_ns = ++logged_ * period_ns_;
+      recorder_.add_truth(next_ns, world_from_body_.pose(next_ns) * body_from_imu_);
+      if (options_.progress && logged_ % samples_per_report == 0 &&
+          !options_.progress(static_cast<double>(logged_) / static_cast<double>(count_))) {
+        return false;
+      }
     }
+    return true;
   }
 
  private:
-  void advance() {
-    next_ = source_();
-    if (next_) recorder_.add_sensors_wall(next_->wall_s);
-  }
-
-  MessageSource source_;
+  const Trajectory& world_from_body_;
+  const Pose body_from_imu_;
+  const std::int64_t period_ns_;
+  const std::int64_t count_;
+  const SessionOptions& options_;
   Recorder& recorder_;
-  std::unique_ptr<SensorMessage> next_;
+  std::int64_t logged_ = 0;
 };
 
-void run(const Scenario& scenario, const Trajectory& world_from_body, MessageSource source,
+void deliver(const SensorMessage& message, Recorder& recorder) {
+  recorder.add_sensors_wall(message.wall_s);
+  std::visit(
+      [&](const auto& payload) {
+        if (message.lost.empty()) {
+          recorder.deliver(payload);
+        } else {
+          recorder.lose(payload, message.lost);
+        }
+      },
+      message.payload);
+}
+
+void run(const Scenario& scenario, const Trajectory& world_from_body, const MessageSource& source,
          const SessionOptions& options, Recorder& recorder) {
-  Imu imu(scenario.rig.imu, scenario.seed);
-  imu.noise_enabled = scenario.rig.imu_noise;
-  Delivery others(std::move(source), recorder);
-  const std::int64_t period_ns = imu.period_ns();
-  const std::int64_t samples = world_from_body.end_ns() / period_ns;
-  const std::int64_t samples_per_report = std::max<std::int64_t>(samples / 200, 1);
-  for (std::int64_t k = 1; k <= samples && !recorder.faulted(); ++k) {
-    const std::int64_t stamp_ns = k * period_ns;
-    others.up_to(stamp_ns);
-    recorder.add_truth(stamp_ns, world_from_body.pose(stamp_ns));
-    const ImuSample sample = imu.sample(world_from_body, stamp_ns);
-    if (k % scenario.rig.decimation == 0) recorder.deliver(sample);
-    if (options.progress && k % samples_per_report == 0) {
-      const bool go_on = options.progress(static_cast<double>(k) / static_cast<double>(samples));
-      if (!go_on) return recorder.set_fault("interrupted");
-    }
+  TruthLog truth(scenario, world_from_body, options, recorder);
+  while (const auto message = source()) {
+    if (!truth.up_to(message->delivery_ns)) return recorder.set_fault("interrupted");
+    deliver(*message, recorder);
+    if (recorder.faulted()) return;
   }
-  others.up_to(world_from_body.end_ns() + 1);
+  if (!truth.up_to(world_from_body.end_ns())) recorder.set_fault("interrupted");
 }
 
 }  // namespace
@@ -99,9 +115,9 @@ RunRecord run_session(const Scenario& scenario, const World& world, const RaySce
   const Trajectory world_from_body = make_body_trajectory(scenario, world, rays);
   Recorder recorder(estimator, world_from_body.end_ns());
   const Surroundings surroundings{world, rays};
-  MessageSource source = options.threads > 1 ? make_read_ahead_source(scenario, surroundings, world_from_body)
-                                             : make_source(scenario, surroundings, world_from_body);
-  run(scenario, world_from_body, std::move(source), options, recorder);
+  const MessageSource source = options.threads > 1 ? make_read_ahead_source(scenario, surroundings, world_from_body)
+                                                   : make_source(scenario, surroundings, world_from_body);
+  run(scenario, world_from_body, source, options, recorder);
   RunRecord record = recorder.finish();
   colour_map(scenario, surroundings, world_from_body, record);
   return record;

@@ -25,8 +25,9 @@ Trajectory make_body_trajectory(const Scenario& scenario, const World& world, co
 /// Runs a scenario in lock-step: world, motion, sensors, estimator. A fault of the estimator ends the run and is kept
 /// in the record; bad input throws InputError before anything is simulated.
 ///
-/// Messages come in order of delivery: IMU samples and images at their stamps, a scan at its end; of those delivered
-/// at one time the IMU sample first, then the image, then the scan.
+/// Messages come in order of arrival: without delays IMU samples and images at their stamps, a scan at its end; of
+/// those that arrive at one time the IMU sample first, then the image, then the scan. Truth is logged in true time,
+/// whatever the sensors' clocks show. Its body, as the estimator's, is the IMU.
 RunRecord run_session(const Scenario& scenario, const World& world, const RayScene& rays,
                       const SessionOptions& options);
 

@@ -1,36 +1,82 @@
 #include "sensors/imu.h"
 
 #include <cmath>
-#include <stdexcept>
+#include <string>
+
+#include "sim/random_stream.h"
 
 namespace plumbline {
 namespace {
 
 constexpr double kGravity = 9.81;
 
-Eigen::Vector3d gaussian_vector(RandomStream& stream) {
-  const double x = stream.gaussian();
-  const double y = stream.gaussian();
-  const double z = stream.gaussian();
-  return {x, y, z};
+ImuModel validated(ImuModel model) {
+  validate_or_throw(model);
+  return model;
 }
 
-void require(bool holds, const char* message) {
-  if (!holds) throw std::invalid_argument(message);
+/// Gain errors on the diagonal, misalignment beside it.
+Eigen::Matrix3d drawn_gain(const TriadErrors& errors, const ImuEffects& effects, std::uint64_t seed,
+                           const std::string& name) {
+  RandomStream scale(seed, name + ".scale");
+  RandomStream misalignment(seed, name + ".misalignment");
+  const Eigen::Vector3d gain_errors = errors.scale_sigma * gaussian_vector(scale);
+  Eigen::Matrix3d gain = Eigen::Matrix3d::Identity();
+  for (int row = 0; row < 3; ++row) {
+    const Eigen::Vector3d lean = errors.misalignment_sigma_rad * gaussian_vector(misalignment);
+    for (int column = 0; column < 3; ++column) {
+      if (row == column && effects.scale) gain(row, column) += gain_errors[row];
+      if (row != column && effects.misalignment) gain(row, column) = lean[column];
+    }
+  }
+  return gain;
+}
+
+Eigen::Matrix3d drawn_g_sensitivity(const ImuModel& model, std::uint64_t seed) {
+  RandomStream stream(seed, "imu.gyro.g_sensitivity");
+  Eigen::Matrix3d sensitivity = Eigen::Matrix3d::Zero();
+  if (!model.effects.g_sensitivity) return sensitivity;
+  for (int column = 0; column < 3; ++column) {
+    sensitivity.col(column) = model.g_sensitivity_sigma * gaussian_vector(stream);
+  }
+  return sensitivity;
+}
+
+Eigen::Vector3d drawn_turn_on(bool enabled, const std::optional<Eigen::Vector3d>& given, double sigma,
+                              std::uint64_t seed, const std::string& name) {
+  if (!enabled) return Eigen::Vector3d::Zero();
+  if (given) return *given;
+  RandomStream stream(seed, name + ".turn_on");
+  return sigma * gaussian_vector(stream);
+}
+
+Eigen::Vector3d output_of(Eigen::Vector3d reading, const TriadErrors& errors, const ImuEffects& effects) {
+  if (effects.saturation && errors.range > 0.0) reading = reading.cwiseMax(-errors.range).cwiseMin(errors.range);
+  if (effects.quantisation && errors.resolution > 0.0) {
+    for (double& value : reading) value = errors.resolution * std::round(value / errors.resolution);
+  }
+  return reading;
+}
+
+NoiseFigures acting(const ImuEffects& effects, const NoiseFigures& figures) {
+  return {effects.white_noise ? figures.density : 0.0, effects.bias_instability ? figures.bias_instability : 0.0,
+          effects.random_walk ? figures.random_walk : 0.0};
 }
 
 }  // namespace
 
-void validate_or_throw(const ImuModel& model) {
-  require(model.rate_hz >= 10.0 && model.rate_hz <= 2000.0, "imu: rate_hz must be in [10, 2000]");
+NoiseFigures gyro_figures(const ImuModel& model) {
   const ImuNoise& n = model.noise;
-  for (const double v : {n.gyro_density, n.accel_density, n.gyro_random_walk, n.accel_random_walk, n.gyro_turn_on_sigma,
-                         n.accel_turn_on_sigma}) {
-    require(std::isfinite(v) && v >= 0.0, "imu: every noise figure must be finite and not negative");
-  }
+  return acting(model.effects, {n.gyro_density, n.gyro_bias_instability, n.gyro_random_walk});
 }
 
-ImuSample exact_sample(const Trajectory& trajectory, std::int64_t start_ns, std::int64_t end_ns) {
+NoiseFigures accel_figures(const ImuModel& model) {
+  const ImuNoise& n = model.noise;
+  return acting(model.effects, {n.accel_density, n.accel_bias_instability, n.accel_random_walk});
+}
+
+ImuSample exact_sample(const Trajectory& trajectory, std::int64_t start_ns, std::int64_t end_ns,
+                       const Eigen::Vector3d& position_in_body) {
   // Three-point Gauss-Legendre: exact for fifth-degree motion within the interval.
   const double half_width = std::sqrt(0.6);
   const double nodes[3] = {-half_width, 0.0, half_width};
@@ -42,29 +88,49 @@ ImuSample exact_sample(const Trajectory& trajectory, std::int64_t start_ns, std:
   for (int i = 0; i < 3; ++i) {
     const MotionState s = trajectory.at_seconds(middle + half * nodes[i]);
     const Eigen::Vector3d force_in_world = s.acceleration_in_world + kGravity * Eigen::Vector3d::UnitZ();
-    sample.angular_rate += weights[i] * s.angular_rate_in_body;
-    sample.specific_force += weights[i] * (s.world_from_body.rotation.conjugate() * force_in_world);
+    const Eigen::Vector3d& rate = s.angular_rate_in_body;
+    const Eigen::Vector3d euler = s.angular_acceleration_in_body.cross(position_in_body);
+    const Eigen::Vector3d centripetal = rate.cross(rate.cross(position_in_body));
+    sample.angular_rate += weights[i] * rate;
+    sample.specific_force +=
+        weights[i] * (s.world_from_body.rotation.conjugate() * force_in_world + euler + centripetal);
   }
   return sample;
 }
 
-Imu::Imu(ImuModel model, std::uint64_t seed) : model_(std::move(model)), stream_(seed, "imu") {
-  validate_or_throw(model_);
-  gyro_bias_ = model_.noise.gyro_turn_on_sigma * gaussian_vector(stream_);
-  accel_bias_ = model_.noise.accel_turn_on_sigma * gaussian_vector(stream_);
-}
+Imu::Imu(ImuModel model, std::uint64_t seed)
+    : model_(validated(std::move(model))),
+      vibration_(model_.vibration, seed),
+      gyro_gain_(drawn_gain(model_.gyro, model_.effects, seed, "imu.gyro")),
+      accel_gain_(drawn_gain(model_.accel, model_.effects, seed, "imu.accel")),
+      rate_from_force_(drawn_g_sensitivity(model_, seed)),
+      gyro_turn_on_(drawn_turn_on(model_.effects.turn_on_bias, model_.gyro_turn_on_bias,
+                                  model_.noise.gyro_turn_on_sigma, seed, "imu.gyro")),
+      accel_turn_on_(drawn_turn_on(model_.effects.turn_on_bias, model_.accel_turn_on_bias,
+                                   model_.noise.accel_turn_on_sigma, seed, "imu.accel")),
+      gyro_noise_(gyro_figures(model_), model_.rate_hz, seed, "imu.gyro"),
+      accel_noise_(accel_figures(model_), model_.rate_hz, seed, "imu.accel") {}
 
 std::int64_t Imu::period_ns() const { return std::llround(1e9 / model_.rate_hz); }
 
 ImuSample Imu::sample(const Trajectory& trajectory, std::int64_t stamp_ns) {
-  ImuSample sample = exact_sample(trajectory, stamp_ns - period_ns(), stamp_ns);
-  if (!noise_enabled) return sample;
-  const double dt = 1.0 / model_.rate_hz;
-  const ImuNoise& n = model_.noise;
-  gyro_bias_ += n.gyro_random_walk * std::sqrt(dt) * gaussian_vector(stream_);
-  accel_bias_ += n.accel_random_walk * std::sqrt(dt) * gaussian_vector(stream_);
-  sample.angular_rate += gyro_bias_ + n.gyro_density / std::sqrt(dt) * gaussian_vector(stream_);
-  sample.specific_force += accel_bias_ + n.accel_density / std::sqrt(dt) * gaussian_vector(stream_);
+  const std::int64_t start_ns = stamp_ns - period_ns();
+  ImuSample truth = exact_sample(trajectory, start_ns, stamp_ns, model_.position_in_body);
+  if (!noise_enabled) return truth;
+  if (model_.effects.vibration && !vibration_.is_still()) {
+    const double speed_mps = trajectory.at(stamp_ns).velocity_in_world.norm();
+    truth.specific_force += vibration_.mean(start_ns, stamp_ns, speed_mps);
+  }
+  return measured(truth);
+}
+
+ImuSample Imu::measured(const ImuSample& truth) {
+  ImuSample sample;
+  sample.stamp_ns = truth.stamp_ns;
+  const Eigen::Vector3d rate = gyro_gain_ * truth.angular_rate + rate_from_force_ * truth.specific_force;
+  const Eigen::Vector3d force = accel_gain_ * truth.specific_force;
+  sample.angular_rate = output_of(rate + gyro_turn_on_ + gyro_noise_.next(), model_.gyro, model_.effects);
+  sample.specific_force = output_of(force + accel_turn_on_ + accel_noise_.next(), model_.accel, model_.effects);
   return sample;
 }
 
