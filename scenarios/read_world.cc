@@ -54,8 +54,6 @@ void read_parameters(ConfigReader& reader, const SceneInfo& scene, SceneValues& 
 void read_world(ConfigReader& reader, WorldConfig& config) {
   std::uint64_t seed = 0;
   if (reader.read("seed", seed)) config.seed = seed;
-  reader.section("light", [&](ConfigReader& light) { read_light(light, config); });
-
   // A user's own world takes the place of a scene that a base may have named.
   const ConfigNode* scene_node = reader.find("scene");
   reader.read("scene", config.scene);
@@ -63,6 +61,8 @@ void read_world(ConfigReader& reader, WorldConfig& config) {
   const ConfigNode& named = scene_node == nullptr ? reader.node() : *scene_node;
   const SceneInfo own_world{"mjcf", "", {}, nullptr};
   const SceneInfo& scene = config.scene.empty() ? own_world : scene_named(config.scene, named, reader.path_of("scene"));
+  config.light_lux = scene.usual_lux;
+  reader.section("light", [&](ConfigReader& light) { read_light(light, config); });
   reader.section("parameters",
                  [&](ConfigReader& parameters) { read_parameters(parameters, scene, config.parameters); });
 }

@@ -5,9 +5,14 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "sim/scenes/conference_room.h"
 #include "sim/scenes/corridor.h"
+#include "sim/scenes/dark_room.h"
+#include "sim/scenes/flat.h"
 #include "sim/scenes/garage.h"
+#include "sim/scenes/ground_and_wall.h"
 #include "sim/scenes/hall.h"
+#include "sim/scenes/striped_walls.h"
 #include "sim/scenes/tunnel.h"
 
 namespace plumbline {
@@ -53,7 +58,9 @@ SceneValues complete_values(const SceneInfo& scene, const SceneValues& overrides
 }  // namespace
 
 const std::vector<SceneInfo>& scene_library() {
-  static const std::vector<SceneInfo> scenes = {garage_scene(), corridor_scene(), tunnel_scene(), hall_scene()};
+  static const std::vector<SceneInfo> scenes = {
+      garage_scene(),    corridor_scene(),      tunnel_scene(), hall_scene(),           conference_room_scene(),
+      dark_room_scene(), striped_walls_scene(), flat_scene(),   ground_and_wall_scene()};
   return scenes;
 }
 

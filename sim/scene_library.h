@@ -19,6 +19,9 @@ struct SceneParameter {
   bool whole = false;  ///< only whole numbers make sense
 };
 
+inline constexpr double kLampLightLux = 200.0;
+inline constexpr double kDaylightLux = 50'000.0;
+
 using SceneValues = std::map<std::string, double>;
 
 /// A procedural scene: the same values and seed give the same world, byte for byte.
@@ -28,6 +31,7 @@ struct SceneInfo {
   std::vector<SceneParameter> parameters;
   /// `values` holds every parameter, defaults filled in and ranges checked.
   SceneDescription (*build)(const SceneValues& values, std::uint64_t world_seed) = nullptr;
+  double usual_lux = kLampLightLux;  ///< the light level unless a scenario sets one
 };
 
 const std::vector<SceneInfo>& scene_library();

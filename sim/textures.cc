@@ -147,6 +147,65 @@ void draw_asphalt(TileCanvas& canvas, RandomStream& stream) {
   add_cracks(canvas, 45, -0.35F, stream);
 }
 
+/// Boards along the rows, each with its own tone and grain, and some knots.
+void draw_wood(TileCanvas& canvas, RandomStream& stream) {
+  constexpr float kBoard = 32.0F;  // 16 cm
+  canvas.add_octaves(2, 8, 0.06F, 0.2F, stream.bits());
+  canvas.add_octaves(64, 256, 0.07F, 0.5F, stream.bits());
+  for (float y = 0.5F * kBoard; y < kTextureSize; y += kBoard) {
+    for (float x = draw(stream, 0.0, 200.0); x < kTextureSize;) {
+      const float length = draw(stream, 180.0, 420.0);
+      const Eigen::Vector2f centre(x + 0.5F * length, y);
+      canvas.add_box(centre, {0.5F * length, 0.5F * kBoard - 1.0F}, 0.0F, draw(stream, -0.25, 0.25));
+      canvas.add_box({x, y}, {1.2F, 0.5F * kBoard}, 0.0F, -0.4F);
+      for (int i = 0; i < 9; ++i) {
+        const Eigen::Vector2f grain(x + draw(stream, 0.1, 0.9) * length, y + draw(stream, -0.42, 0.42) * kBoard);
+        canvas.add_box(grain, {draw(stream, 0.05, 0.3) * length, draw(stream, 0.5, 1.3)}, draw(stream, -0.03, 0.03),
+                       draw(stream, -0.35, 0.15));
+      }
+      if (stream.uniform() < 0.4) {
+        const Eigen::Vector2f knot(x + draw(stream, 0.1, 0.9) * length, y + draw(stream, -0.3, 0.3) * kBoard);
+        canvas.add_disc(knot, draw(stream, 2.0, 5.0), -0.5F);
+      }
+      x += length;
+    }
+    canvas.add_box({0.5F * kTextureSize, y + 0.5F * kBoard}, {0.5F * kTextureSize, 1.0F}, 0.0F, -0.35F);
+  }
+}
+
+/// A weave of two yarns with motifs, as on carpets and upholstery.
+void draw_fabric(TileCanvas& canvas, RandomStream& stream) {
+  constexpr int kCell = 64;  // 32 cm
+  canvas.add_octaves(2, 4, 0.14F, 0.4F, stream.bits());
+  canvas.add_octaves(16, 256, 0.08F, 0.6F, stream.bits());
+  for (int y = 0; y < kTextureSize; y += kCell) {
+    for (int x = 0; x < kTextureSize; x += kCell) {
+      const Eigen::Vector2f centre(static_cast<float>(x) + draw(stream, 16.0, 48.0),
+                                   static_cast<float>(y) + draw(stream, 16.0, 48.0));
+      const float half = draw(stream, 7.0, 20.0);
+      const float value = draw_sign(stream) * draw(stream, 0.2, 0.45);
+      const bool diamond = stream.uniform() < 0.5;
+      canvas.add_box(centre, {half, half}, diamond ? 0.7854F : 0.0F, value);
+      canvas.add_box(centre, {0.5F * half, 0.5F * half}, diamond ? 0.0F : 0.7854F, -1.5F * value);
+    }
+  }
+  add_chips(canvas, 1.5F, 12.0F, 0.02F, 0.25F, stream);
+}
+
+/// Bars from edge to edge of the tile: every row is the same, or every column.
+void draw_stripes(TileCanvas& canvas, RandomStream& stream, bool vertical) {
+  constexpr float kHalf = 0.5F * kTextureSize;
+  for (float at = 0.0F; at < kTextureSize;) {
+    const float width = draw(stream, 12.0, 60.0);  // 6 to 30 cm
+    const float middle = at + 0.5F * width;
+    const Eigen::Vector2f centre = vertical ? Eigen::Vector2f(middle, kHalf) : Eigen::Vector2f(kHalf, middle);
+    const Eigen::Vector2f half_size =
+        vertical ? Eigen::Vector2f(0.5F * width, kHalf) : Eigen::Vector2f(kHalf, 0.5F * width);
+    canvas.add_box(centre, half_size, 0.0F, draw(stream, -0.7, 0.7));
+    at += width;
+  }
+}
+
 void draw_plain(TileCanvas& canvas, RandomStream& stream) { canvas.add_octaves(256, 512, 0.02F, 0.0F, stream.bits()); }
 
 void draw_structure(TileCanvas& canvas, Material::Pattern pattern, RandomStream& stream) {
@@ -163,10 +222,20 @@ void draw_structure(TileCanvas& canvas, Material::Pattern pattern, RandomStream&
       return draw_signs(canvas, stream);
     case Material::Pattern::kAsphalt:
       return draw_asphalt(canvas, stream);
+    case Material::Pattern::kWood:
+      return draw_wood(canvas, stream);
+    case Material::Pattern::kFabric:
+      return draw_fabric(canvas, stream);
+    case Material::Pattern::kStripesVertical:
+      return draw_stripes(canvas, stream, true);
+    case Material::Pattern::kStripesHorizontal:
+      return draw_stripes(canvas, stream, false);
   }
 }
 
 void draw_wear(TileCanvas& canvas, Material::Pattern pattern, RandomStream& stream) {
+  // Wear has edges of every direction: stripes stay new.
+  if (pattern == Material::Pattern::kStripesVertical || pattern == Material::Pattern::kStripesHorizontal) return;
   if (pattern == Material::Pattern::kPlain) return draw_plain(canvas, stream);
   canvas.add_octaves(4, 16, 0.08F, 0.5F, stream.bits());
   canvas.add_octaves(32, 512, 0.12F, 0.9F, stream.bits());

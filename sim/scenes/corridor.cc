@@ -5,79 +5,18 @@
 #include <string>
 #include <vector>
 
+#include "sim/scenes/corridor_legs.h"
 #include "sim/scenes/palette.h"
 #include "sim/scenes/walls.h"
 
 namespace plumbline {
 namespace {
 
-constexpr double kWallM = 0.2;
+constexpr double kWallM = Leg::kWallM;
 constexpr double kDoorWidthM = 1.0;
 constexpr double kDoorHeightM = 2.05;
 constexpr double kDoorShare = 0.75;  // of the places for one that have a door
 constexpr double kNarrowM = 2.3;     // no cabinets in corridors narrower than this
-
-/// One straight leg, in a frame with its origin at the leg's first corner and x along it.
-struct Leg {
-  Pose world_from_leg;
-  double length = 0.0;  ///< from corner to corner
-  double half_width = 0.0;
-  double height = 0.0;
-  double door_spacing = 0.0;
-  int turn_before = 0;  ///< +1 left, -1 right, 0: the corridor begins here
-  int turn_after = 0;
-  std::string name;  ///< of its random streams
-
-  /// Where a side's wall begins and ends: the inner wall of a turn stops short of the corner, the outer one passes it.
-  double wall_begin(int side) const { return turn_before == 0 ? 0.0 : side * turn_before * half_width; }
-  double wall_end(int side) const { return turn_after == 0 ? length : length - side * turn_after * half_width; }
-};
-
-constexpr int kLeft = +1;
-constexpr int kRight = -1;
-
-std::vector<Leg> make_legs(const SceneValues& values) {
-  const int turns = static_cast<int>(std::lround(values.at("turns")));
-  std::vector<Leg> legs;
-  Eigen::Vector3d corner = Eigen::Vector3d::Zero();
-  for (int i = 0; i <= turns; ++i) {
-    const bool along_x = i % 2 == 0;
-    Leg leg;
-    leg.world_from_leg = upright_frame(corner, along_x ? 0.0 : M_PI / 2.0);
-    leg.length = values.at("length_m") / (turns + 1);
-    leg.half_width = values.at("width_m") / 2.0;
-    leg.height = values.at("height_m");
-    leg.door_spacing = values.at("door_spacing_m");
-    leg.turn_before = i == 0 ? 0 : (along_x ? kRight : kLeft);
-    leg.turn_after = i == turns ? 0 : (along_x ? kLeft : kRight);
-    leg.name = "corridor/leg" + std::to_string(i);
-    legs.push_back(leg);
-    corner = leg.world_from_leg * Eigen::Vector3d(leg.length, 0.0, 0.0);
-  }
-  return legs;
-}
-
-Wall wall_between(const Leg& leg, const Eigen::Vector3d& from_in_leg, const Eigen::Vector3d& to_in_leg) {
-  const Eigen::Vector3d from = leg.world_from_leg * from_in_leg;
-  const Eigen::Vector3d to = leg.world_from_leg * to_in_leg;
-  Wall wall;
-  wall.from = from.head<2>();
-  wall.to = to.head<2>();
-  wall.height_m = leg.height;
-  wall.thickness_m = kWallM;
-  wall.section_m = 5.0;
-  return wall;
-}
-
-// Outer walls run past their ends by their own thickness, so that no light gets through the corners. At an inner corner
-// the second leg's wall begins behind the first one's, so that no two faces coincide.
-Wall side_wall(const Leg& leg, int side) {
-  const double y = side * leg.half_width;
-  const double begin = leg.wall_begin(side) + (side * leg.turn_before == 1 ? kWallM : -kWallM);
-  const double end = leg.wall_end(side) + (side * leg.turn_after == 1 ? 0.0 : kWallM);
-  return side == kRight ? wall_between(leg, {begin, y, 0.0}, {end, y, 0.0})
-                        : wall_between(leg, {end, y, 0.0}, {begin, y, 0.0});
-}
 
 /// Middles of equal slots along a wall, clear of its ends.
 std::vector<double> slots(double wall_length, double spacing) {
@@ -129,10 +68,10 @@ void add_wall_thing(MjcfWriter& writer, const Leg& leg, const Pose& world_from_w
 }
 
 // Doors in the middles of the slots, other things between them.
-void add_side(MjcfWriter& writer, const Leg& leg, int side, std::uint64_t seed) {
-  RandomStream stream(seed, leg.name + (side == kLeft ? "/left" : "/right"));
+void add_side(MjcfWriter& writer, const Leg& leg, int side, double door_spacing, std::uint64_t seed) {
+  RandomStream stream(seed, leg.name + (side == Leg::kLeft ? "/left" : "/right"));
   Wall wall = side_wall(leg, side);
-  const std::vector<double> middles = slots((wall.to - wall.from).norm(), leg.door_spacing);
+  const std::vector<double> middles = slots((wall.to - wall.from).norm(), door_spacing);
   for (const double middle : middles) {
     if (stream.uniform() >= kDoorShare) continue;
     wall.openings.push_back({middle - kDoorWidthM / 2.0, middle + kDoorWidthM / 2.0, kDoorHeightM});
@@ -144,14 +83,12 @@ void add_side(MjcfWriter& writer, const Leg& leg, int side, std::uint64_t seed) 
   }
 }
 
-// Flush stretches of differing ground; the square of a corner belongs to the leg before it.
+// Flush stretches of differing ground.
 void add_floor_and_ceiling(MjcfWriter& writer, const Leg& leg, RandomStream& stream) {
-  const double begin = leg.turn_before == 0 ? -kWallM : leg.half_width;
-  const double end = leg.length + (leg.turn_after == 0 ? kWallM : leg.half_width);
-  const double y = leg.half_width + (leg.turn_before == 0 ? kWallM : 0.0);
+  const double y = leg.floor_half_width();
   std::string floor;
   std::string ceiling;
-  const std::vector<double> cuts = random_cuts(stream, begin, end, 3.0, 6.0);
+  const std::vector<double> cuts = random_cuts(stream, leg.floor_begin(), leg.floor_end(), 3.0, 6.0);
   for (std::size_t i = 1; i < cuts.size(); ++i) {
     floor = pick_other_than(floor, stream, indoor_floor_materials());
     ceiling = pick_other_than(ceiling, stream, {"plaster", "panels_white", "panels_grey"});
@@ -175,13 +112,13 @@ void add_lamps(MjcfWriter& writer, const Leg& leg, RandomStream& stream) {
 
 void add_cable_tray(MjcfWriter& writer, const Leg& leg) {
   const double y = leg.half_width - 0.12;
-  writer.cylinder("pipe_galvanised", {leg.wall_begin(kLeft), y, leg.height - 0.12},
-                  {leg.wall_end(kLeft), y, leg.height - 0.12}, 0.05, leg.world_from_leg);
+  writer.cylinder("pipe_galvanised", {leg.wall_begin(Leg::kLeft), y, leg.height - 0.12},
+                  {leg.wall_end(Leg::kLeft), y, leg.height - 0.12}, 0.05, leg.world_from_leg);
 }
 
-void add_leg(MjcfWriter& writer, const Leg& leg, std::uint64_t seed) {
-  add_side(writer, leg, kLeft, seed);
-  add_side(writer, leg, kRight, seed);
+void add_leg(MjcfWriter& writer, const Leg& leg, double door_spacing, std::uint64_t seed) {
+  add_side(writer, leg, Leg::kLeft, door_spacing, seed);
+  add_side(writer, leg, Leg::kRight, door_spacing, seed);
   RandomStream grounds(seed, leg.name + "/grounds");
   add_floor_and_ceiling(writer, leg, grounds);
   RandomStream lamps(seed, leg.name + "/lamps");
@@ -189,19 +126,18 @@ void add_leg(MjcfWriter& writer, const Leg& leg, std::uint64_t seed) {
   add_cable_tray(writer, leg);
 }
 
-void add_end_walls(MjcfWriter& writer, const Leg& first, const Leg& last, RandomStream& stream) {
-  const double y = first.half_width;
-  add_wall(writer, wall_between(first, {0.0, y, 0.0}, {0.0, -y, 0.0}), wall_materials(), stream);
-  add_wall(writer, wall_between(last, {last.length, -y, 0.0}, {last.length, y, 0.0}), wall_materials(), stream);
-}
-
 SceneDescription build_corridor(const SceneValues& values, std::uint64_t world_seed) {
   MjcfWriter writer;
-  const std::vector<Leg> legs = make_legs(values);
-  for (const Leg& leg : legs) add_leg(writer, leg, world_seed);
+  const auto turns = static_cast<std::size_t>(std::lround(values.at("turns")));
+  const std::vector<double> lengths(turns + 1, values.at("length_m") / static_cast<double>(turns + 1));
+  const std::vector<Leg> legs = make_legs("corridor", lengths, values.at("width_m"), values.at("height_m"));
+  for (const Leg& leg : legs) add_leg(writer, leg, values.at("door_spacing_m"), world_seed);
   RandomStream ends(world_seed, "corridor/ends");
-  add_end_walls(writer, legs.front(), legs.back(), ends);
-  return writer.finish("corridor", scene_palette(), 30.0, 0.0);
+  add_wall(writer, first_wall(legs.front()), wall_materials(), ends);
+  add_wall(writer, last_wall(legs.back()), wall_materials(), ends);
+  SceneDescription scene = writer.finish("corridor", scene_palette(), 30.0, 0.0);
+  scene.routes = {centre_line("centre_line", legs)};
+  return scene;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "sim/scenes/garage_bays.h"
 #include "sim/scenes/garage_plan.h"
 #include "sim/scenes/palette.h"
+#include "sim/scenes/routes.h"
 #include "sim/scenes/walls.h"
 
 namespace plumbline {
@@ -164,6 +165,26 @@ void add_lamps(MjcfWriter& writer, const GaragePlan& plan, int hall, RandomStrea
   }
 }
 
+// Along one lane of every hall, and over to the other one for the door to the next.
+Route through_all_halls(const GaragePlan& plan) {
+  constexpr double kCrossM = 3.5;  // from the end walls to the cross lanes' middles
+  std::vector<Eigen::Vector3d> corners{{6.0, GaragePlan::kLaneY, 0.0}};
+  for (int hall = 0; hall < plan.halls; ++hall) {
+    const double cross = plan.west_of(hall) + plan.length - kCrossM;
+    const double from = -plan.door_y(hall);
+    corners.emplace_back(cross, from, 0.0);
+    corners.emplace_back(cross, -from, 0.0);
+  }
+  const double last = plan.west_of(plan.halls - 1);
+  corners.emplace_back(last + plan.length - 8.0, corners.back().y(), 0.0);
+  return make_route("through_all_halls", corners, 2.0);
+}
+
+Route first_hall_loop(const GaragePlan& plan) {
+  return rectangular_route("first_hall", {plan.length / 2.0, 0.0, 0.0}, {plan.length / 2.0 - 3.5, GaragePlan::kLaneY},
+                           2.0);
+}
+
 SceneDescription build_garage(const SceneValues& values, std::uint64_t world_seed) {
   const GaragePlan plan(values, world_seed);
   MjcfWriter writer;
@@ -180,7 +201,9 @@ SceneDescription build_garage(const SceneValues& values, std::uint64_t world_see
     RandomStream lamps(world_seed, stream_name("lamps", hall));
     add_lamps(writer, plan, hall, lamps);
   }
-  return writer.finish("garage", scene_palette(), 30.0, 0.0);
+  SceneDescription scene = writer.finish("garage", scene_palette(), 30.0, 0.0);
+  scene.routes = {through_all_halls(plan), first_hall_loop(plan)};
+  return scene;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "sim/scenes/palette.h"
 #include "sim/scenes/parked_things.h"
+#include "sim/scenes/routes.h"
 #include "sim/scenes/walls.h"
 
 namespace plumbline {
@@ -25,20 +26,7 @@ struct Plan {
 };
 
 std::vector<Wall> walls_of(const Plan& plan) {
-  const double x = plan.half_length;
-  const double y = plan.half_width;
-  const double outer = x + kWallM;  // the long walls close the corners
-  std::vector<Wall> walls(4);
-  walls[0].from = {-outer, -y};
-  walls[0].to = {outer, -y};
-  walls[1].from = {x, -y};
-  walls[1].to = {x, y};
-  walls[2].from = {outer, y};
-  walls[2].to = {-outer, y};
-  walls[3].from = {-x, y};
-  walls[3].to = {-x, -y};
-  for (Wall& wall : walls) wall.height_m = plan.height;
-  return walls;
+  return rectangle_walls({plan.half_length, plan.half_width}, plan.height);
 }
 
 // Boards of all sizes, above the racks.
@@ -173,6 +161,27 @@ void add_lamps(MjcfWriter& writer, const Plan& plan) {
   }
 }
 
+// Two loops side by side, rising and falling within the free volume above the crates.
+Route figure_of_eight(const Plan& plan) {
+  constexpr int kPoints = 64;
+  const double x = plan.half_length - 7.0;
+  const double y = plan.half_width - 6.5;
+  const double low = std::max(3.0, 0.3 * plan.height);
+  const double high = 0.6 * plan.height;
+  Route route{.name = "figure_of_eight", .closed = true};
+  for (int i = 0; i < kPoints; ++i) {
+    const double angle = 2.0 * M_PI * i / kPoints;
+    route.points.emplace_back(x * std::sin(angle), y * std::sin(2.0 * angle),
+                              low + (high - low) * (0.5 + 0.5 * std::sin(angle + 1.0)));
+  }
+  return route;
+}
+
+Route level_flight(const Plan& plan) {
+  return rectangular_route("level", {0.0, 0.0, 0.4 * plan.height}, {plan.half_length - 7.0, plan.half_width - 6.5},
+                           4.0);
+}
+
 SceneDescription build_hall(const SceneValues& values, std::uint64_t world_seed) {
   const Plan plan{.half_length = values.at("length_m") / 2.0,
                   .half_width = values.at("width_m") / 2.0,
@@ -187,7 +196,9 @@ SceneDescription build_hall(const SceneValues& values, std::uint64_t world_seed)
   add_racks(writer, plan);
   add_floor_crates(writer, plan);
   add_lamps(writer, plan);
-  return writer.finish("hall", scene_palette(), 40.0, 0.0);
+  SceneDescription scene = writer.finish("hall", scene_palette(), 40.0, 0.0);
+  scene.routes = {figure_of_eight(plan), level_flight(plan)};
+  return scene;
 }
 
 }  // namespace

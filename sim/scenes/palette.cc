@@ -43,6 +43,32 @@ const std::vector<Material>& scene_palette() {
       {"crate_board", Pattern::kSigns, 0.52F, 1.0F, 0.55F},
       {"barrel_blue", Pattern::kPanels, 0.25F, 1.0F, 0.30F},
       {"barrel_orange", Pattern::kSigns, 0.45F, 1.0F, 0.60F},
+      {"wood_pale", Pattern::kWood, 0.45F, 1.0F, 0.55F, {1.25F, 0.97F, 0.60F}},
+      {"wood_brown", Pattern::kWood, 0.22F, 1.0F, 0.45F, {1.40F, 0.94F, 0.45F}},
+      {"wood_dark", Pattern::kWood, 0.10F, 1.0F, 0.30F, {1.50F, 0.90F, 0.50F}},
+      {"wood_floor", Pattern::kWood, 0.30F, 1.0F, 0.45F, {1.30F, 0.96F, 0.50F}},
+      {"carpet_grey", Pattern::kFabric, 0.25F, 1.0F, 0.35F},
+      {"carpet_red", Pattern::kFabric, 0.15F, 1.0F, 0.40F, {2.20F, 0.70F, 0.50F}},
+      {"carpet_blue", Pattern::kFabric, 0.14F, 1.0F, 0.30F, {0.60F, 0.95F, 2.60F}},
+      {"fabric_green", Pattern::kFabric, 0.20F, 1.0F, 0.40F, {0.60F, 1.20F, 0.50F}},
+      {"fabric_grey", Pattern::kFabric, 0.32F, 1.0F, 0.45F},
+      {"fabric_white", Pattern::kFabric, 0.68F, 0.6F, 0.70F},
+      {"plastic_black", Pattern::kPlain, 0.05F, 0.5F, 0.08F},
+      {"plastic_white", Pattern::kPlain, 0.72F, 0.5F, 0.70F},
+      {"glass", Pattern::kPlain, 0.08F, 1.0F, 0.06F, {0.80F, 1.02F, 1.30F}},
+      {"white_board", Pattern::kSigns, 0.75F, 0.5F, 0.75F},
+      {"book_spines", Pattern::kStripesVertical, 0.30F, 1.0F, 0.40F, {1.20F, 0.97F, 0.75F}},
+      {"plant_leaves", Pattern::kFoliage, 0.14F, 1.0F, 0.55F, {0.60F, 1.22F, 0.30F}},
+      {"plant_pot", Pattern::kConcrete, 0.28F, 0.8F, 0.45F, {1.70F, 0.86F, 0.55F}},
+      {"hedge", Pattern::kFoliage, 0.12F, 1.0F, 0.50F, {0.60F, 1.22F, 0.35F}},
+      {"tree_bark", Pattern::kConcrete, 0.16F, 1.0F, 0.40F, {1.25F, 0.97F, 0.65F}},
+      {"lawn_short", Pattern::kGrass, 0.18F, 1.0F, 0.50F, {0.75F, 1.16F, 0.35F}},
+      {"gravel_path", Pattern::kGravel, 0.35F, 1.0F, 0.35F, {1.10F, 0.99F, 0.85F}},
+      {"roof_tiles", Pattern::kBrick, 0.22F, 1.0F, 0.35F, {1.80F, 0.84F, 0.55F}},
+      {"roof_felt", Pattern::kAsphalt, 0.20F, 1.0F, 0.20F},
+      {"blank_wall", Pattern::kPlain, 0.50F, 0.0F, 0.50F},
+      {"stripes_vertical", Pattern::kStripesVertical, 0.50F, 1.0F, 0.50F},
+      {"stripes_horizontal", Pattern::kStripesHorizontal, 0.50F, 1.0F, 0.50F},
   };
   return materials;
 }
@@ -75,6 +101,22 @@ const std::vector<std::string>& barrel_materials() {
 
 const std::vector<std::string>& road_materials() {
   static const std::vector<std::string> names = {"asphalt", "asphalt_worn", "floor_screed"};
+  return names;
+}
+
+const std::vector<std::string>& wood_materials() {
+  static const std::vector<std::string> names = {"wood_pale", "wood_brown", "wood_dark"};
+  return names;
+}
+
+const std::vector<std::string>& fabric_materials() {
+  static const std::vector<std::string> names = {"carpet_red", "carpet_blue", "fabric_green", "fabric_grey"};
+  return names;
+}
+
+const std::vector<std::string>& room_wall_materials() {
+  static const std::vector<std::string> names = {"plaster", "concrete_pale", "brick_pale", "panels_white",
+                                                 "panels_green"};
   return names;
 }
 

@@ -19,6 +19,9 @@ const std::vector<std::string>& vehicle_materials();
 const std::vector<std::string>& crate_materials();
 const std::vector<std::string>& barrel_materials();
 const std::vector<std::string>& road_materials();
+const std::vector<std::string>& wood_materials();
+const std::vector<std::string>& fabric_materials();  ///< carpets and upholstery
+const std::vector<std::string>& room_wall_materials();
 const std::vector<std::string>& indoor_floor_materials();
 
 std::string pick(RandomStream& stream, const std::vector<std::string>& names);

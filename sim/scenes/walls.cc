@@ -31,9 +31,26 @@ void add_solid_part(MjcfWriter& writer, const Wall& wall, double begin, double e
 
 }  // namespace
 
+std::vector<Wall> rectangle_walls(const Eigen::Vector2d& half_size, double height_m) {
+  const double x = half_size.x();
+  const double y = half_size.y();
+  std::vector<Wall> walls(4);
+  const double outer = x + walls[0].thickness_m;
+  walls[0].from = {-outer, -y};
+  walls[0].to = {outer, -y};
+  walls[1].from = {x, -y};
+  walls[1].to = {x, y};
+  walls[2].from = {outer, y};
+  walls[2].to = {-outer, y};
+  walls[3].from = {-x, y};
+  walls[3].to = {-x, -y};
+  for (Wall& wall : walls) wall.height_m = height_m;
+  return walls;
+}
+
 Pose frame_of(const Wall& wall) {
   const Eigen::Vector2d along = wall.to - wall.from;
-  return upright_frame({wall.from.x(), wall.from.y(), 0.0}, std::atan2(along.y(), along.x()));
+  return upright_frame({wall.from.x(), wall.from.y(), wall.floor_m}, std::atan2(along.y(), along.x()));
 }
 
 void add_wall(MjcfWriter& writer, const Wall& wall, const std::vector<std::string>& materials, RandomStream& stream) {
@@ -43,6 +60,10 @@ void add_wall(MjcfWriter& writer, const Wall& wall, const std::vector<std::strin
     if (opening.height_m < wall.height_m) {
       writer.box(pick(stream, materials), {opening.begin_m, -wall.thickness_m, opening.height_m},
                  {opening.end_m, 0.0, wall.height_m}, frame_of(wall));
+    }
+    if (opening.sill_m > 0.0) {
+      writer.box(pick(stream, materials), {opening.begin_m, -wall.thickness_m, 0.0},
+                 {opening.end_m, 0.0, opening.sill_m}, frame_of(wall));
     }
     begin = opening.end_m;
   }
@@ -55,12 +76,28 @@ void add_door_frame(MjcfWriter& writer, const Wall& wall, const Opening& opening
   const double left = opening.begin_m;
   const double right = opening.end_m;
   const double top = opening.height_m;
-  writer.box("frame_paint", {left - kFrameOutsideM, back, 0.0}, {left + kFrameInsideM, kFrameProudM, top},
+  writer.box("frame_paint", {left - kFrameOutsideM, back, opening.sill_m}, {left + kFrameInsideM, kFrameProudM, top},
              world_from_wall);
-  writer.box("frame_paint", {right - kFrameInsideM, back, 0.0}, {right + kFrameOutsideM, kFrameProudM, top},
+  writer.box("frame_paint", {right - kFrameInsideM, back, opening.sill_m}, {right + kFrameOutsideM, kFrameProudM, top},
              world_from_wall);
   writer.box("frame_paint", {left - kFrameOutsideM, back, top - kFrameInsideM},
              {right + kFrameOutsideM, kFrameProudM, top + kFrameOutsideM}, world_from_wall);
+}
+
+void add_window_frame(MjcfWriter& writer, const Wall& wall, const Opening& opening) {
+  constexpr double kBarHalfM = 0.03;
+  const Pose world_from_wall = frame_of(wall);
+  const double sill = opening.sill_m;
+  const double middle = (opening.begin_m + opening.end_m) / 2.0;
+  const double bar = sill + 0.6 * (opening.height_m - sill);
+  const double pane = -wall.thickness_m / 2.0;
+  add_door_frame(writer, wall, opening);
+  writer.box("frame_paint", {opening.begin_m - kFrameOutsideM, -wall.thickness_m - 0.08, sill - 0.04},
+             {opening.end_m + kFrameOutsideM, 0.12, sill + 0.02}, world_from_wall);
+  writer.box("frame_paint", {middle - kBarHalfM, pane - kBarHalfM, sill},
+             {middle + kBarHalfM, pane + kBarHalfM, opening.height_m}, world_from_wall);
+  writer.box("frame_paint", {opening.begin_m, pane - kBarHalfM, bar - kBarHalfM},
+             {opening.end_m, pane + kBarHalfM, bar + kBarHalfM}, world_from_wall);
 }
 
 void add_fixture(MjcfWriter& writer, const Pose& world_from_wall, const Fixture& fixture) {

@@ -9,11 +9,12 @@
 
 namespace plumbline {
 
-/// A hole in a wall, from the floor up.
+/// A hole in a wall: a door's from the floor up, a window's from its sill.
 struct Opening {
   double begin_m = 0.0;  ///< along the wall
   double end_m = 0.0;
-  double height_m = 0.0;
+  double height_m = 0.0;  ///< of its upper edge above the floor
+  double sill_m = 0.0;    ///< of its lower edge
 };
 
 /// A straight wall. The room lies to the left of from -> to, its thickness to the right: rooms go anticlockwise.
@@ -24,7 +25,11 @@ struct Wall {
   double thickness_m = 0.2;
   std::vector<Opening> openings = {};  ///< apart from each other, in order along the wall
   double section_m = 6.0;              ///< a stretch of one material is at most this long
+  double floor_m = 0.0;                ///< height of the floor in the world
 };
+
+/// The four walls of a rectangular room about the origin: at -y, +x, +y and -x. Those along x close the corners.
+std::vector<Wall> rectangle_walls(const Eigen::Vector2d& half_size, double height_m);
 
 /// The wall's frame: origin at `from` on the floor, x along the wall, y into the room.
 Pose frame_of(const Wall& wall);
@@ -32,8 +37,10 @@ Pose frame_of(const Wall& wall);
 /// Sections of differing materials, exactly flush.
 void add_wall(MjcfWriter& writer, const Wall& wall, const std::vector<std::string>& materials, RandomStream& stream);
 
-/// A frame around an opening, 3 cm proud of both faces and 5 cm narrower than the hole on each side.
+/// A frame around an opening, 3 cm proud of both faces and 5 cm narrower than the hole on each side. A window's has a
+/// sill and a cross of bars, too.
 void add_door_frame(MjcfWriter& writer, const Wall& wall, const Opening& opening);
+void add_window_frame(MjcfWriter& writer, const Wall& wall, const Opening& opening);
 
 /// A flat thing on a wall's face, `depth_m` deep: a board, a cabinet, a radiator.
 struct Fixture {

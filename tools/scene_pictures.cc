@@ -1,0 +1,156 @@
+// A developer's program: a small picture of every scene of the library, as somebody sees it who follows its first
+// route. `plumbline list scenes` names the files.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+#include "sim/ray_scene.h"
+#include "sim/renderer.h"
+#include "sim/scene_library.h"
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kWidth = 480;
+constexpr int kHeight = 270;
+constexpr double kEyeHeight_m = 1.6;
+
+struct Options {
+  fs::path folder;
+  std::vector<std::string> names;
+  SceneValues values;
+  std::uint64_t seed = 1;
+  double share = -1.0;  // of the route that lies behind; negative: the scene's own
+  std::size_t route = 0;
+  double yaw_deg = 0.0;  // to the left of the route's direction
+  double pitch_deg = 4.0;
+};
+
+/// A place on a route and the way it leads there.
+struct Station {
+  Eigen::Vector3d place;
+  double yaw = 0.0;
+};
+
+Station station_on(const Route& route, double share) {
+  std::vector<Eigen::Vector3d> points = route.points;
+  if (route.closed) points.push_back(points.front());
+  double length = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
+  double left = share * length;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const Eigen::Vector3d leg = points[i] - points[i - 1];
+    if (left <= leg.norm() || i + 1 == points.size()) {
+      return {points[i - 1] + leg * std::min(1.0, left / leg.norm()), std::atan2(leg.y(), leg.x())};
+    }
+    left -= leg.norm();
+  }
+  throw std::invalid_argument("route " + route.name + " has fewer than two points");
+}
+
+Pose camera_at(const Station& station, const RayScene& rays, const Options& options) {
+  constexpr double kFloorWithin_m = 0.4;  // otherwise the route is flown
+  const Eigen::Vector3d above = station.place + 0.2 * Eigen::Vector3d::UnitZ();
+  const bool on_floor = rays.cast(above, -Eigen::Vector3d::UnitZ(), 0.0, kFloorWithin_m).hit;
+  constexpr double kDegree = M_PI / 180.0;
+  const Eigen::Quaterniond world_from_body =
+      rotation_from_rpy({0.0, options.pitch_deg * kDegree, station.yaw + options.yaw_deg * kDegree});
+  return {world_from_body * body_from_optical_rotation(),
+          station.place + (on_floor ? kEyeHeight_m : 0.0) * Eigen::Vector3d::UnitZ()};
+}
+
+float quantile(std::vector<float> values, double share) {
+  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
+
+/// sRGB, exposed so that the picture's upper tenth is bright, highlights rolled off.
+cv::Mat3b developed(const RadianceImage& image) {
+  const float bright = std::max(quantile(image.luminance, 0.9), 1e-9F);
+  cv::Mat3b picture(image.height, image.width);
+  for (int v = 0; v < image.height; ++v) {
+    for (int u = 0; u < image.width; ++u) {
+      const auto pixel = static_cast<std::size_t>(v * image.width + u);
+      for (int c = 0; c < 3; ++c) {
+        const float light =
+            image.rgb.empty() ? image.luminance[pixel] : image.rgb[3 * pixel + static_cast<std::size_t>(c)];
+        const float tone = 1.0F - std::exp(-1.5F * light / bright);
+        picture(v, u)[2 - c] = cv::saturate_cast<std::uint8_t>(255.0F * std::pow(tone, 1.0F / 2.2F));
+      }
+    }
+  }
+  return picture;
+}
+
+void draw_scene(const SceneInfo& scene, const Options& options) {
+  World world = World::from_scene(build_scene(scene.name, options.values, options.seed), options.seed);
+  world.set_light_level(scene.usual_lux);
+  const RayScene rays(world);
+  if (world.routes().size() <= options.route) {
+    throw std::invalid_argument("scene " + scene.name + " has only " + std::to_string(world.routes().size()) +
+                                " routes");
+  }
+  const double share = options.share < 0.0 ? 0.1 : options.share;
+  const Station station = station_on(world.routes()[options.route], share);
+  // Twice as large and then halved, for smooth edges.
+  RenderView view{.width = 2 * kWidth, .height = 2 * kHeight};
+  view.fx = view.fy = 0.62 * view.width;
+  view.cx = view.width / 2.0 - 0.5;
+  view.cy = view.height / 2.0 - 0.5;
+  view.far_m = 400.0;
+  Renderer renderer(world, view, {.threads = 1, .depth = false, .colour = true});
+  const Pose world_from_camera = camera_at(station, rays, options);
+  cv::Mat3b picture;
+  cv::resize(developed(renderer.render({.world_from_camera = world_from_camera, .world_from_body = world_from_camera})),
+             picture, {kWidth, kHeight}, 0, 0, cv::INTER_AREA);
+  const fs::path file = options.folder / (scene.name + ".jpg");
+  constexpr std::uintmax_t kMaxBytes = 40'000;
+  for (int quality = 85; quality >= 40; quality -= 5) {
+    if (!cv::imwrite(file.string(), picture, {cv::IMWRITE_JPEG_QUALITY, quality})) {
+      throw std::runtime_error("cannot write " + file.string());
+    }
+    if (fs::file_size(file) <= kMaxBytes) break;
+  }
+  std::cout << file.string() << "\n";
+}
+
+int draw_scenes(const Options& options) {
+  fs::create_directories(options.folder);
+  for (const SceneInfo& scene : scene_library()) {
+    const bool wanted = options.names.empty() ||
+                        std::find(options.names.begin(), options.names.end(), scene.name) != options.names.end();
+    if (wanted) draw_scene(scene, options);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace plumbline
+
+int main(int argc, char** argv) {
+  plumbline::Options options;
+  CLI::App app("Draws a picture of each scene");
+  app.add_option("FOLDER", options.folder, "where to")->required();
+  app.add_option("NAME", options.names, "scenes; all without any");
+  app.add_option("--at", options.share, "how much of the route lies behind, 0 to 1");
+  app.add_option("--route", options.route, "number of the route, from 0");
+  app.add_option("--seed", options.seed, "of the world");
+  app.add_option("--yaw-deg", options.yaw_deg, "to the left of the route");
+  app.add_option("--pitch-deg", options.pitch_deg, "down");
+  app.add_option("--parameter", options.values, "NAME VALUE of the scene, as in world.parameters");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return plumbline::draw_scenes(options);
+  } catch (const std::exception& error) {
+    std::cerr << "scene_pictures: " << error.what() << "\n";
+    return 2;
+  }
+}
