@@ -8,6 +8,7 @@
 #include "sim/scenes/corridor.h"
 #include "sim/scenes/garage.h"
 #include "sim/scenes/hall.h"
+#include "sim/scenes/street.h"
 #include "sim/scenes/tunnel.h"
 
 namespace plumbline {
@@ -53,7 +54,7 @@ SceneValues complete_values(const SceneInfo& scene, const SceneValues& overrides
 }  // namespace
 
 const std::vector<SceneInfo>& scene_library() {
-  static const std::vector<SceneInfo> scenes = {garage_scene(), corridor_scene(), tunnel_scene(), hall_scene()};
+  static const std::vector<SceneInfo> scenes = {garage_scene(), corridor_scene(), tunnel_scene(), hall_scene(), street_scene()};
   return scenes;
 }
 
