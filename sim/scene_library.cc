@@ -12,6 +12,7 @@
 #include "sim/scenes/garage.h"
 #include "sim/scenes/ground_and_wall.h"
 #include "sim/scenes/hall.h"
+#include "sim/scenes/street.h"
 #include "sim/scenes/striped_walls.h"
 #include "sim/scenes/tunnel.h"
 
@@ -59,8 +60,9 @@ SceneValues complete_values(const SceneInfo& scene, const SceneValues& overrides
 
 const std::vector<SceneInfo>& scene_library() {
   static const std::vector<SceneInfo> scenes = {
-      garage_scene(),    corridor_scene(),      tunnel_scene(), hall_scene(),           conference_room_scene(),
-      dark_room_scene(), striped_walls_scene(), flat_scene(),   ground_and_wall_scene()};
+      garage_scene(),          corridor_scene(),  tunnel_scene(),        hall_scene(),
+      conference_room_scene(), dark_room_scene(), striped_walls_scene(), flat_scene(),
+      ground_and_wall_scene(), street_scene()};
   return scenes;
 }
 

@@ -206,6 +206,68 @@ void draw_stripes(TileCanvas& canvas, RandomStream& stream, bool vertical) {
   }
 }
 
+/// Rows of windows, 2.56 m apart both ways, each with panes, a sill and its own blind.
+void draw_facade(TileCanvas& canvas, RandomStream& stream) {
+  canvas.add_octaves(2, 16, 0.05F, 0.2F, stream.bits());
+  canvas.add_octaves(64, 256, 0.07F, 0.6F, stream.bits());
+  constexpr float kPitch = kTextureSize / 2;
+  for (int floor = 0; floor < 2; ++floor) {
+    for (int column = 0; column < 2; ++column) {
+      const Eigen::Vector2f centre((static_cast<float>(column) + 0.5F) * kPitch + draw(stream, -20.0, 20.0),
+                                   (static_cast<float>(floor) + 0.5F) * kPitch);
+      const Eigen::Vector2f half_size(draw(stream, 90.0, 140.0), draw(stream, 130.0, 165.0));
+      canvas.add_box(centre, half_size + Eigen::Vector2f::Constant(14.0F), 0.0F, 0.45F);
+      canvas.add_box(centre, half_size, 0.0F, -1.2F);
+      const float blind = draw(stream, 0.0, 0.8) * half_size.y();
+      canvas.add_box(centre - Eigen::Vector2f(0.0F, half_size.y() - blind), {half_size.x(), blind}, 0.0F,
+                     draw(stream, 0.2, 0.9));
+      canvas.add_box(centre, {5.0F, half_size.y()}, 0.0F, 0.7F);
+      canvas.add_box(centre + Eigen::Vector2f(0.0F, half_size.y() + 22.0F), {half_size.x() + 24.0F, 9.0F}, 0.0F, 0.3F);
+    }
+    canvas.add_box({0.5F * kTextureSize, static_cast<float>(floor) * kPitch}, {0.5F * kTextureSize, 6.0F}, 0.0F,
+                   -0.25F);
+  }
+  add_chips(canvas, 1.5F, 24.0F, 0.015F, 0.25F, stream);
+}
+
+/// Blades of all tones over lighter and darker patches, weeds and bare places.
+void draw_grass(TileCanvas& canvas, RandomStream& stream) {
+  canvas.add_octaves(8, 256, 0.10F, 0.5F, stream.bits());
+  for (int i = 0; i < 9000; ++i) {
+    const float length = draw(stream, 4.0, 14.0);
+    const Eigen::Vector2f place = draw_place(stream);
+    const float angle = draw(stream, 0.0, 3.14159);
+    canvas.add_box(place, {length, draw(stream, 0.6, 1.3)}, angle, draw(stream, -0.5, 0.5));
+  }
+  add_chips(canvas, 2.0F, 48.0F, 0.03F, 0.35F, stream);
+  for (int i = 0; i < 120; ++i) canvas.add_disc(draw_place(stream), draw(stream, 3.0, 12.0), draw(stream, -0.5, 0.6));
+}
+
+/// Leaves over dark gaps.
+void draw_foliage(TileCanvas& canvas, RandomStream& stream) {
+  canvas.add_octaves(8, 128, 0.12F, 0.6F, stream.bits());
+  for (int i = 0; i < 5000; ++i) {
+    const float size = draw(stream, 4.0, 13.0);
+    const Eigen::Vector2f place = draw_place(stream);
+    const float angle = draw(stream, 0.0, 3.14159);
+    canvas.add_box(place, {size, size * draw(stream, 0.35, 0.6)}, angle, draw(stream, -0.45, 0.45));
+  }
+  add_chips(canvas, 2.0F, 32.0F, 0.03F, 0.4F, stream);
+}
+
+/// Stones of all sizes.
+void draw_gravel(TileCanvas& canvas, RandomStream& stream) {
+  canvas.add_octaves(2, 256, 0.09F, 0.4F, stream.bits());
+  for (float radius = 1.5F; radius < 14.0F; radius *= 1.6F) {
+    const int count = static_cast<int>(120000.0F / (radius * radius * 3.0F));
+    for (int i = 0; i < count; ++i) {
+      const Eigen::Vector2f place = draw_place(stream);
+      canvas.add_disc(place, radius * draw(stream, 0.7, 1.2), draw(stream, -0.5, 0.5));
+    }
+  }
+  add_chips(canvas, 6.0F, 48.0F, 0.03F, 0.3F, stream);
+}
+
 void draw_plain(TileCanvas& canvas, RandomStream& stream) { canvas.add_octaves(256, 512, 0.02F, 0.0F, stream.bits()); }
 
 void draw_structure(TileCanvas& canvas, Material::Pattern pattern, RandomStream& stream) {
@@ -230,6 +292,14 @@ void draw_structure(TileCanvas& canvas, Material::Pattern pattern, RandomStream&
       return draw_stripes(canvas, stream, true);
     case Material::Pattern::kStripesHorizontal:
       return draw_stripes(canvas, stream, false);
+    case Material::Pattern::kFacade:
+      return draw_facade(canvas, stream);
+    case Material::Pattern::kGrass:
+      return draw_grass(canvas, stream);
+    case Material::Pattern::kFoliage:
+      return draw_foliage(canvas, stream);
+    case Material::Pattern::kGravel:
+      return draw_gravel(canvas, stream);
   }
 }
 

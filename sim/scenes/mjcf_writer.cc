@@ -39,6 +39,15 @@ void MjcfWriter::begin_geom(const char* type, const std::string& material) {
   geoms_ += std::string("    <geom type=\"") + type + "\" material=\"" + material + '"';
 }
 
+void MjcfWriter::mesh(SceneMesh mesh) {
+  used_materials_.insert(mesh.material);
+  meshes_.push_back(std::move(mesh));
+}
+
+void MjcfWriter::begin_body(const std::string& name) { geoms_ += "    <body name=\"" + name + "\" mocap=\"true\">\n"; }
+
+void MjcfWriter::end_body() { geoms_ += "    </body>\n"; }
+
 void MjcfWriter::box(const std::string& material, const Eigen::Vector3d& low, const Eigen::Vector3d& high,
                      const Pose& world_from_local) {
   begin_geom("box", material);
@@ -72,7 +81,7 @@ void MjcfWriter::rod(const char* type, const std::string& material, const Eigen:
 }
 
 SceneDescription MjcfWriter::finish(const std::string& model_name, const std::vector<Material>& palette,
-                                    double ambient_lux, double sky_luminance) const {
+                                    double ambient_lux, double sky_luminance) {
   SceneDescription scene;
   std::string assets;
   for (const Material& material : palette) {
@@ -89,6 +98,7 @@ SceneDescription MjcfWriter::finish(const std::string& model_name, const std::ve
                "  <asset>\n" +
                assets + "  </asset>\n  <worldbody>\n" + geoms_ + "  </worldbody>\n</mujoco>\n";
   scene.lamps = lamps_;
+  scene.meshes = std::move(meshes_);
   scene.ambient_lux = ambient_lux;
   scene.sky_luminance = sky_luminance;
   return scene;
