@@ -91,6 +91,7 @@ void read_rig(ConfigReader& reader, RigConfig& config) {
   config = default_rig();
   config.vehicle_from_pack = read_mounting(reader, Eigen::Vector3d::Zero());
   reader.read("decimation", config.decimation, kDecimation);
+  reader.read("own_body", config.own_body);
   reader.section("lidar", [&](ConfigReader& lidar) { read_lidar(lidar, config); });
   reader.section("camera", [&](ConfigReader& camera) { read_camera(camera, config); });
   reader.section("imu", [&](ConfigReader& imu) { read_imu(imu, config); });

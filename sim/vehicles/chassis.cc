@@ -30,8 +30,8 @@ double spring_load(const WheeledDesign& design, std::size_t corner) {
 
 void write_wheel(std::ostream& out, const WheeledDesign& design, std::size_t corner) {
   const double r = design.tyre.radius_m;
-  const double across = 0.25 * design.wheel_kg * r * r * 1.2;
-  const double along = 0.5 * design.wheel_kg * r * r * 1.4;  // most of a wheel's mass is in its rim
+  const double across = 0.4 * design.wheel_kg * r * r;
+  const double along = 0.7 * design.wheel_kg * r * r;  // most of a wheel's mass is in its rim
   const std::string name = kCorners[corner];
   const Eigen::Vector3d place(is_front(corner) ? design.wheelbase_m : 0.0,
                               (corner % 2 == 0 ? 0.5 : -0.5) * design.track_m, 0.0);
