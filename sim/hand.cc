@@ -38,9 +38,10 @@ HandWander::HandWander(double deviation_deg, std::uint64_t seed) : deviation_(de
   for (int i = 0; i < 6; ++i) noise_.emplace_back(stream, 0.05, 0.8);
 }
 
-Pose HandWander::at(double time_s) const {
+Pose HandWander::at(double time_s, double share) const {
   constexpr double kForearm_m = 0.3;  // what turns by so much also moves by so much
-  return {exp_so3(deviation_ * values_of(noise_, 0, time_s)), kForearm_m * deviation_ * values_of(noise_, 3, time_s)};
+  return {exp_so3(share * deviation_ * values_of(noise_, 0, time_s)),
+          kForearm_m * share * deviation_ * values_of(noise_, 3, time_s)};
 }
 
 HandSpin::HandSpin(const MotionConfig& config, std::vector<double> share, std::uint64_t seed)

@@ -14,7 +14,8 @@ namespace plumbline {
 class HandWander {
  public:
   HandWander(double deviation_deg, std::uint64_t seed);
-  Pose at(double time_s) const;
+  /// @param share  of the full deviation
+  Pose at(double time_s, double share) const;
 
  private:
   double deviation_;  // [rad]

@@ -50,6 +50,7 @@ std::vector<double> spin_shares(const Base& base) {
 template <typename Steps>
 Trajectory carry(const MotionConfig& config, const World& world, std::uint64_t seed, Steps steps) {
   constexpr double kStep_s = BandLimiter::kStep_s;
+  constexpr double kStill = 0.2;  // of a hand's unrest that is left to who stands
   const Base base = base_of(config, world);
   const HandWander wander(config.hand_wander_deg, seed);
   HandSpin spin(config, spin_shares(base), seed);
@@ -60,7 +61,8 @@ Trajectory carry(const MotionConfig& config, const World& world, std::uint64_t s
     const StepMotion step = steps.at(time_s, effort);
     spin.advance(time_s, kStep_s);
     const Pose even = base.trajectory.pose(ns);
-    motion.add(even * Pose{rotation_from_rpy(step.tilt), step.offset} * wander.at(time_s) * spin.pose());
+    motion.add(even * Pose{rotation_from_rpy(step.tilt), step.offset} *
+               wander.at(time_s, kStill + (1.0 - kStill) * effort) * spin.pose());
   }
   return motion.finish();
 }
