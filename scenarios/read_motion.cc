@@ -1,4 +1,5 @@
 #include "scenarios/schema.h"
+#include "sim/vehicles/vehicle.h"
 
 namespace plumbline {
 namespace {
@@ -12,6 +13,15 @@ constexpr Range kSmoothing_s{0.1, 10.0};
 constexpr Range kGaitFrequency_hz{0.0, 10.0};
 constexpr Range kGaitAmplitude_m{0.0, 0.3};
 constexpr Range kGaitTilt_deg{0.0, 30.0};
+constexpr Range kImpact_mps2{0.0, 50.0};
+constexpr Range kJump_m{0.0, 1.0};
+constexpr Range kWander_deg{0.0, 20.0};
+constexpr Range kSpin_dps{0.0, 1000.0};
+constexpr Range kRouteStart_m{0.0, 100'000.0};
+constexpr Range kRouteLength_m{1.0, 100'000.0};
+constexpr Range kHeight_m{-10.0, 500.0};
+constexpr Range kRoughness_m{0.0, 0.2};
+constexpr Range kWind_mps{0.0, 20.0};
 constexpr Range kSwing_deg{0.0, 90.0};
 constexpr Range kSwing_hz{0.01, 20.0};
 
@@ -55,6 +65,28 @@ void read_gait(ConfigReader& reader, MotionConfig& config) {
   reader.read("sway_m", config.gait_sway_m, kGaitAmplitude_m);
   reader.read("roll_deg", config.gait_roll_deg, kGaitTilt_deg);
   reader.read("pitch_deg", config.gait_pitch_deg, kGaitTilt_deg);
+  reader.read("impact_mps2", config.gait_impact_mps2, kImpact_mps2);
+  reader.read("jump_m", config.gait_jump_m, kJump_m);
+}
+
+/// Starts from the vehicle's own way of moving. The words are the names of vehicle_library().
+void read_vehicle(ConfigReader& reader, MotionConfig& config) {
+  std::vector<std::string> names;
+  for (const VehicleInfo& vehicle : vehicle_library()) names.push_back(vehicle.name);
+  std::size_t index = 0;
+  if (reader.read_choice("vehicle", names, index)) config = vehicle_library()[index].defaults;
+}
+
+void read_route(ConfigReader& reader, MotionConfig& config) {
+  reader.read("route", config.route);
+  reader.read("route_start_m", config.route_start_m, kRouteStart_m);
+  reader.read("route_length_m", config.route_length_m, kRouteLength_m);
+  reader.read("height_m", config.height_m, kHeight_m);
+}
+
+void read_spin(ConfigReader& reader, MotionConfig& config) {
+  reader.read("mean_deg_per_s", config.spin_mean_dps, kSpin_dps);
+  reader.read("peak_deg_per_s", config.spin_peak_dps, kSpin_dps);
 }
 
 template <typename Item, typename Convert>
@@ -71,21 +103,36 @@ void read_list(ConfigReader& reader, const std::string& key, Convert convert, st
 }  // namespace
 
 void read_motion(ConfigReader& reader, MotionConfig& config) {
+  read_vehicle(reader, config);
+  read_route(reader, config);
   reader.read("tum", config.tum_file);
   read_list(reader, "waypoints", waypoint_of, config.waypoints);
   reader.read("speed_mps", config.speed_mps, kSpeed_mps);
   reader.read("speed_factor", config.speed_factor, kSpeedFactor);
   reader.read("acceleration_mps2", config.acceleration_mps2, kAcceleration_mps2);
+  reader.read("lateral_acceleration_mps2", config.lateral_acceleration_mps2, kAcceleration_mps2);
   reader.read("rest_s", config.rest_s, kRest_s);
   reader.read("smoothing_s", config.smoothing_s, kSmoothing_s);
   std::size_t attitude = static_cast<std::size_t>(config.attitude);
   reader.read_choice("attitude", {"heading", "thrust"}, attitude);
   config.attitude = static_cast<MotionConfig::Attitude>(attitude);
   reader.section("gait", [&](ConfigReader& gait) { read_gait(gait, config); });
+  reader.read("hand_wander_deg", config.hand_wander_deg, kWander_deg);
+  reader.section("spin", [&](ConfigReader& spin) { read_spin(spin, config); });
+  reader.read("roughness_m", config.roughness_m, kRoughness_m);
+  reader.read("wind_mps", config.wind_mps, kWind_mps);
   read_list(reader, "oscillations", oscillation_of, config.oscillations);
   reader.finish();  // a misspelt key is the better explanation of what is missing
-  if (config.tum_file.empty() && config.waypoints.size() < 2) {
-    fail_at(reader.node(), reader.path_of("waypoints"), "at least two way-points, or a trajectory under motion.tum");
+  const bool has_waypoints = config.waypoints.size() >= 2;
+  if (config.tum_file.empty() && config.route.empty() && !has_waypoints) {
+    fail_at(reader.node(), reader.path_of("waypoints"),
+            "at least two way-points, a route of the world under motion.route, or a trajectory under motion.tum");
+  }
+  if (!config.route.empty() && (has_waypoints || !config.tum_file.empty())) {
+    fail_at(reader.node(), reader.path_of("route"), "either a route, way-points or a trajectory");
+  }
+  if (!config.tum_file.empty() && !config.vehicle.empty()) {
+    fail_at(reader.node(), reader.path_of("vehicle"), "no vehicle for a trajectory that is played as it is");
   }
 }
 

@@ -35,6 +35,7 @@ void read_rig(ConfigReader& reader, std::uint64_t seed, RigConfig& config) {
   config = default_rig();
   config.vehicle_from_pack = read_mounting(reader, Eigen::Vector3d::Zero());
   reader.read("decimation", config.decimation, kDecimation);
+  reader.read("own_body", config.own_body);
   reader.section("lidar", [&](ConfigReader& lidar) { read_lidar(lidar, seed, config); });
   read_cameras(reader, seed, config);
   reader.section("imu", [&](ConfigReader& imu) { read_imu(imu, config); });

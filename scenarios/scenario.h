@@ -65,6 +65,7 @@ struct SensorTiming {
 /// point_in_lidar.
 struct RigConfig {
   int decimation = 1;  ///< 2 drops every other message of all sensors
+  bool own_body = true;  ///< sensors see the vehicle that carries them
   Pose vehicle_from_pack;
   Pose pack_from_lidar;
   LidarModel lidar;

@@ -2,6 +2,7 @@
 
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <vector>
 
@@ -17,8 +18,9 @@ constexpr std::int64_t kStep_ns = 2'000'000;
 Trajectory mounted_on(const Trajectory& world_from_vehicle, const Pose& vehicle_from_pack) {
   const std::int64_t start_ns = world_from_vehicle.start_ns();
   const std::int64_t duration_ns = world_from_vehicle.end_ns() - start_ns;
+  const std::int64_t knot_ns = std::min(kKnot_ns, world_from_vehicle.knot_ns());
   std::vector<PoseTrack::Stamped> poses;
-  for (std::int64_t stamp_ns = 0; stamp_ns <= duration_ns; stamp_ns += kKnot_ns) {
+  for (std::int64_t stamp_ns = 0; stamp_ns <= duration_ns; stamp_ns += knot_ns) {
     poses.push_back({stamp_ns, world_from_vehicle.pose(start_ns + stamp_ns) * vehicle_from_pack});
   }
   return Trajectory(poses);

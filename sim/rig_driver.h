@@ -10,7 +10,8 @@
 namespace plumbline {
 
 /// The motion of a sensor pack fixed to a moving vehicle, its stamps counted from the motion's start. Between knots
-/// 10 ms apart the pack's own spline is the truth, so that every sensor on it sees one and the same motion.
+/// 10 ms apart, or as close as the vehicle's own where those are evenly closer, the pack's own spline is the truth, so
+/// that every sensor on it sees one and the same motion.
 Trajectory mounted_on(const Trajectory& world_from_vehicle, const Pose& vehicle_from_pack);
 
 /// Carries the world's mocap rig body along a trajectory, in small steps of MuJoCo's kinematics, and keeps where it

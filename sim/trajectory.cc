@@ -53,6 +53,13 @@ Trajectory::Trajectory(const std::vector<PoseTrack::Stamped>& poses) {
   second_ = natural_second_derivatives(times_s_, values_);
 }
 
+std::int64_t Trajectory::knot_ns() const {
+  constexpr std::int64_t kMillisecond_ns = 1'000'000;
+  const auto legs = static_cast<std::int64_t>(times_s_.size()) - 1;
+  const std::int64_t mean_ns = (end_ns_ - start_ns_) / legs;
+  return std::max<std::int64_t>((mean_ns + kMillisecond_ns / 2) / kMillisecond_ns, 1) * kMillisecond_ns;
+}
+
 MotionState Trajectory::at_seconds(double time_s) const {
   const bool resting = time_s <= times_s_.front() || time_s >= times_s_.back();
   const double t = std::clamp(time_s, times_s_.front(), times_s_.back());

@@ -27,6 +27,8 @@ class Trajectory {
 
   std::int64_t start_ns() const { return start_ns_; }
   std::int64_t end_ns() const { return end_ns_; }
+  /// The mean distance between knots, rounded to whole milliseconds and at least one.
+  std::int64_t knot_ns() const;
   MotionState at(std::int64_t stamp_ns) const { return at_seconds(static_cast<double>(stamp_ns) * 1e-9); }
   MotionState at_seconds(double time_s) const;
   Pose pose(std::int64_t stamp_ns) const { return at(stamp_ns).world_from_body; }

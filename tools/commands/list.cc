@@ -7,6 +7,7 @@
 #include "estimator/estimator.h"
 #include "scenarios/catalogue.h"
 #include "sim/scene_library.h"
+#include "sim/vehicles/vehicle.h"
 #include "tools/commands/command.h"
 #include "tools/exit_code.h"
 #include "tools/formats/number_text.h"
@@ -71,17 +72,24 @@ void list_scenes() {
   }
 }
 
-const std::map<std::string, void (*)()> kLists = {
-    {"scenarios", list_scenarios}, {"sensors", list_sensors}, {"estimators", list_estimators}, {"scenes", list_scenes}};
+void list_vehicles() {
+  for (const VehicleInfo& vehicle : vehicle_library()) print_row(vehicle.name, vehicle.summary, 12);
+}
+
+const std::map<std::string, void (*)()> kLists = {{"scenarios", list_scenarios},
+                                                  {"sensors", list_sensors},
+                                                  {"estimators", list_estimators},
+                                                  {"scenes", list_scenes},
+                                                  {"vehicles", list_vehicles}};
 
 }  // namespace
 
 void add_list_command(CLI::App& app, Action& chosen) {
   const auto what = std::make_shared<std::string>();
   CLI::App* list = app.add_subcommand("list", "Show what there is to choose from");
-  list->add_option("WHAT", *what, "scenarios, sensors, estimators or scenes")
+  list->add_option("WHAT", *what, "scenarios, sensors, estimators, scenes or vehicles")
       ->required()
-      ->check(CLI::IsMember({"scenarios", "sensors", "estimators", "scenes"}));
+      ->check(CLI::IsMember({"scenarios", "sensors", "estimators", "scenes", "vehicles"}));
   list->callback([what, &chosen] {
     chosen = [what] {
       kLists.at (*what)();

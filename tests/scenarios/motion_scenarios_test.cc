@@ -1,0 +1,77 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "tests/scenarios/body_trajectory.h"
+#include "tests/scenarios/temporary_directory.h"
+
+namespace plumbline {
+namespace {
+
+constexpr double kDegree = M_PI / 180.0;
+constexpr double kStep_s = 0.005;
+
+Trajectory motion_of(const std::string& name) {
+  return body_trajectory(load_scenario(std::filesystem::path(PLUMBLINE_SCENARIO_DIR) / (name + ".yaml"), {}, {}));
+}
+
+double duration_s(const Trajectory& motion) { return 1e-9 * static_cast<double>(motion.end_ns()); }
+
+TEST(MotionScenarios, SPathTurns330DegreesIn8Seconds) {
+  const Trajectory motion = motion_of("s_path");
+  std::vector<double> turned{0.0};  // to either side, since the start
+  for (double t = kStep_s; t < duration_s(motion); t += kStep_s) {
+    turned.push_back(turned.back() + kStep_s * std::abs(motion.at_seconds(t).angular_rate_in_body.z()));
+  }
+  const auto window = static_cast<std::size_t>(8.0 / kStep_s);
+  double most = 0.0;
+  for (std::size_t i = window; i < turned.size(); ++i) most = std::max(most, turned[i] - turned[i - window]);
+  EXPECT_GE(most / kDegree, 330.0);
+}
+
+TEST(MotionScenarios, HandsSpinAndShakeAsFastAsTheirFilesSay) {
+  for (const auto& [name, peak_dps] : {std::pair{"spinning", 370.0}, std::pair{"shaking", 250.0}}) {
+    const Trajectory motion = motion_of(name);
+    double peak = 0.0;
+    for (double t = 0.0; t < duration_s(motion); t += kStep_s) {
+      peak = std::max(peak, motion.at_seconds(t).angular_rate_in_body.norm());
+    }
+    // Gait and unsteady hands add a few degrees per second to the spin's own peak.
+    EXPECT_NEAR(peak / kDegree, peak_dps, 0.1 * peak_dps) << name;
+  }
+  EXPECT_NEAR(duration_s(motion_of("spinning")), 82.0, 1.5);
+}
+
+class MotionKeys : public ::testing::Test {
+ protected:
+  /// The quickstart with other settings.
+  static Trajectory with(const std::vector<std::string>& overrides) {
+    return body_trajectory(
+        load_scenario(std::filesystem::path(PLUMBLINE_SCENARIO_DIR) / "quickstart.yaml", overrides, {}));
+  }
+  static void expect_error(const std::vector<std::string>& overrides, const std::string& part) {
+    EXPECT_THAT([&] { with(overrides); }, ::testing::ThrowsMessage<InputError>(::testing::HasSubstr(part)));
+  }
+};
+
+TEST_F(MotionKeys, AreNamedWhenTheyAreWrong) {
+  expect_error({"motion.vehicle=sledge"}, "motion.vehicle");
+  expect_error({"motion.route=nowhere"}, "motion.route");
+  expect_error({"motion.roughness_m=-1"}, "motion.roughness_m");
+  expect_error({"motion.spin.mean=3"}, "motion.spin.mean");
+  expect_error({"motion.vehicle=car"}, "the car cannot turn as tightly");
+}
+
+TEST_F(MotionKeys, VehiclesBringTheirOwnDefaults) {
+  const auto path = std::filesystem::path(PLUMBLINE_SCENARIO_DIR) / "s_path.yaml";
+  const Scenario scenario = load_scenario(path, {}, {});
+  EXPECT_EQ(scenario.motion.vehicle, "car");
+  EXPECT_EQ(scenario.motion.roughness_m, 0.003);      // the car's
+  EXPECT_EQ(scenario.motion.acceleration_mps2, 2.5);  // the file's
+}
+
+}  // namespace
+}  // namespace plumbline
