@@ -22,7 +22,6 @@ class LidarEchoes {
   }
   void clear() { size_ = 0; }
   std::size_t size() const { return size_; }
-  bool empty() const { return size_ == 0; }
   LidarEcho* begin() { return echoes_.data(); }
   LidarEcho* end() { return echoes_.data() + size_; }
   const LidarEcho* begin() const { return echoes_.data(); }
