@@ -36,7 +36,8 @@ void Camera::add(const RadianceImage& picture) {
   const auto pixels = static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height);
   if (picture.width != view.width || picture.height != view.height ||
       values.size() != pixels * static_cast<std::size_t>(channels)) {
-    throw std::invalid_argument("camera " + model_.name + ": the image to expose has another size");
+    throw std::invalid_argument("camera " + model_.name +
+                                ": the picture has another size, or not the colours, of the view");
   }
   const Shutter open = shutter();
   for (int row = 0; row < model_.height; ++row) {

@@ -40,6 +40,21 @@ TEST(Pipeline, GivesOneOutputPerImuSampleFromTheFirstOn) {
   EXPECT_TRUE(estimator->take().empty());
 }
 
+TEST(Pipeline, FurtherCamerasAreCountedAndLeftAlone) {
+  const auto estimator = make_estimator("vloam", camera_calibration(), {});
+  rest_for(*estimator, 1.5);
+  const std::int64_t stamp_ns = 1'510'000'000;
+  const std::vector<std::uint8_t> pixels(64 * 36, 100);
+  estimator->add(CameraFrame{stamp_ns, 1, 64, 36, pixels});
+  estimator->add(DepthFrame{stamp_ns, 2, 64, 36, std::vector<float>(64 * 36, 2.0F)});
+  estimator->add(CameraFrame{stamp_ns, 0, 64, 36, pixels});
+  estimator->add(resting_sample(1'520'000'000));
+  const MessageCounts counts = estimator->counts(Module::kVision);
+  EXPECT_EQ(counts.used, 1);
+  EXPECT_EQ(counts.dropped.at("further cameras are not used"), 1);
+  EXPECT_EQ(counts.dropped.at("depth images are not used"), 1);
+}
+
 TEST(Pipeline, StartsAtTheOriginLevelWithYawZero) {
   Calibration calibration = camera_calibration();
   const auto estimator = make_estimator("imu", calibration, {});

@@ -130,6 +130,17 @@ TEST(CameraOnRig, ARollingShutterLeansTheEdgeAsFarAsTheImageMovesMeanwhile) {
   }
 }
 
+TEST(CameraOnRig, TheSameSeedGivesTheSameBytes) {
+  Scenario scenario = scenario_with(exposed_for(6e-3));
+  scenario.rig.camera.model.width = 160;
+  scenario.rig.camera.model.height = 90;
+  scenario.rig.camera.effects = {};
+  const std::vector<std::uint8_t> once = middle_frame(scenario, 4.0).pixels;
+  EXPECT_EQ(once, middle_frame(scenario, 4.0).pixels);
+  scenario.seed = 2;
+  EXPECT_NE(once, middle_frame(scenario, 4.0).pixels);
+}
+
 TEST(CameraOnRig, TheSecondEyeSeesTheEdgeByItsBaseline) {
   Scenario scenario = scenario_with(exposed_for(1e-3));
   scenario.rig.stereo_baseline_m = 0.54;
