@@ -69,7 +69,7 @@ std::string allan_chart(const ImuModel& model, const std::string& what, const st
   chart.caption = model.name + ", " + what;
   chart.unit = unit;
   chart.x = {expected.x.front(), expected.x.back()};
-  chart.x_label = "log10 of averaging time [s]";
+  chart.x_label = "log10(tau / s)";
   chart.logarithmic = true;
   chart.series = {low, high, axes[0], axes[1], axes[2], expected};
   return line_chart(chart);
