@@ -20,10 +20,10 @@ Eigen::Vector3d gaussian_vector(RandomStream& stream) {
 }
 
 // One process has the spectrum 4 sigma^2 T / (1 + (2 pi f T)^2). Summed over T at a dense ratio r this tends to
-// sigma^2 / (ln(r) f), which is B^2 / (2 pi f) for sigma^2 = B^2 ln(r) / (2 pi). The sum's relative ripple over f is
+// sigma^2 / (ln(r) f), which is B^2 / (pi f) for sigma^2 = B^2 ln(r) / pi. The sum's relative ripple over f is
 // 2 / cosh(pi^2 / ln r).
 std::vector<GaussMarkov> flicker_processes(double bias_instability) {
-  const double sigma = bias_instability * std::sqrt(std::log(kRatio) / (2.0 * std::numbers::pi));
+  const double sigma = bias_instability * std::sqrt(std::log(kRatio) / std::numbers::pi);
   std::vector<GaussMarkov> processes;
   for (int i = 0; i < kProcesses; ++i) processes.push_back({kShortest_s * std::pow(kRatio, i), sigma});
   return processes;

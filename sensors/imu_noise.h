@@ -8,7 +8,7 @@
 #include "sim/random_stream.h"
 
 /// The random errors of a gyroscope's or an accelerometer's axes, in the terms of IEEE Std 952-1997, annex C: white
-/// noise N, bias instability B (flicker noise, power spectral density B^2 / (2 pi f), one-sided) and rate random walk
+/// noise N, bias instability B (flicker noise, power spectral density B^2 / (pi f), one-sided) and rate random walk
 /// K.
 namespace plumbline {
 

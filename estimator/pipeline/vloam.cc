@@ -122,6 +122,9 @@ void Vloam::add(const CameraFrame& frame) {
   if (frame.width != camera.width || frame.height != camera.height || frame.pixels.size() != pixels) {
     return drop(Module::kVision, "wrong size");
   }
+  // Noise makes no two images alike: a driver that repeats one is stuck, and would swear that nothing moves.
+  if (frame.pixels == last_pixels_) return drop(Module::kVision, "repeats the last");
+  last_pixels_ = frame.pixels;
   hold(frame.stamp_ns, frame);
 }
 
@@ -131,7 +134,10 @@ void Vloam::add(const LidarScan& scan) {
   if (!calibration_.has_lidar) return drop(Module::kLidar, "disabled");
   if (scan.points.empty()) return drop(Module::kLidar, "empty");
   if (scan.end_ns <= scan.stamp_ns) return drop(Module::kLidar, "back in time");
-  hold(scan.end_ns, scan);
+  LidarScan finite_scan = scan;
+  std::erase_if(finite_scan.points, [](const LidarPoint& point) { return !point.position.allFinite(); });
+  if (finite_scan.points.empty()) return drop(Module::kLidar, "not finite");
+  hold(scan.end_ns, std::move(finite_scan));
 }
 
 void Vloam::hold(std::int64_t stamp_ns, Exteroceptive message) {

@@ -56,6 +56,7 @@ class Vloam final : public Estimator {
   ImuSample last_sample_;
   PoseTrack track_;                                     ///< world_from_body over the last sweep or so
   std::multimap<std::int64_t, Exteroceptive> waiting_;  ///< messages ahead of the IMU
+  std::vector<std::uint8_t> last_pixels_;               ///< of the newest frame
   double path_m_ = 0.0;
   Eigen::Vector3d last_scan_position_ = Eigen::Vector3d::Zero();
 
