@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "sim/ray_scene.h"
 #include "sim/scene_library.h"
 #include "sim/world.h"
 #include "tests/sim/scene_routes.h"
@@ -151,7 +152,7 @@ TEST(SceneLibrary, EverySceneCompilesForSeveralSeedsAndExtremeParameters) {
     for (const SceneValues& values : extreme_values(scene)) {
       const World world = make_world(scene.name, values, 1);
       EXPECT_GT(world.model().ngeom, 10) << scene.name;
-      EXPECT_FALSE(world.lamps().empty()) << scene.name;
+      EXPECT_TRUE(!world.lamps().empty() || world.ambient_lux() > 0.0) << scene.name;
     }
   }
 }
@@ -160,9 +161,57 @@ TEST(SceneLibrary, EverySceneCompilesForSeveralSeedsAndExtremeParameters) {
 TEST(SceneLibrary, DefaultScenesHaveAModerateNumberOfGeomsAndSeveralLooks) {
   for (const SceneInfo& scene : scene_library()) {
     const World world = make_world(scene.name, {}, 1);
-    EXPECT_LT(world.model().ngeom, 750) << scene.name;
-    EXPECT_GE(world.materials().size(), 12U) << scene.name;
+    EXPECT_LT(world.model().ngeom, 1500) << scene.name;
+    EXPECT_GE(world.materials().size(), 4U) << scene.name;
     for (int geom = 0; geom < world.model().ngeom; ++geom) EXPECT_GE(world.model().geom_matid[geom], 0);
+  }
+}
+
+/// Whether a route of a scene that is walked is clear at a point: 0.3 m to both sides, and to 1.9 m above.
+void expect_walkable(const RayScene& rays, const Eigen::Vector3d& point, const Eigen::Vector3d& along) {
+  constexpr double kStepsUp = 0.25;  // what a foot steps over
+  const RayHit floor = rays.cast(point + Eigen::Vector3d(0.0, 0.0, kStepsUp), -Eigen::Vector3d::UnitZ(), 0.0, 1.0);
+  ASSERT_TRUE(floor.hit) << point.transpose();
+  EXPECT_NEAR(floor.range_m, kStepsUp, 0.21) << point.transpose();
+  const Eigen::Vector3d right = along.cross(Eigen::Vector3d::UnitZ()).normalized();
+  for (const double side : {-0.3, 0.0, 0.3}) {
+    const Eigen::Vector3d foot = point + side * right + Eigen::Vector3d(0.0, 0.0, kStepsUp);
+    EXPECT_FALSE(rays.cast(foot, Eigen::Vector3d::UnitZ(), 0.0, 1.9 - kStepsUp).hit) << point.transpose();
+  }
+  for (const double height : {0.4, 1.0, 1.7}) {
+    const Eigen::Vector3d left_end = point - 0.3 * right + Eigen::Vector3d(0.0, 0.0, height);
+    EXPECT_FALSE(rays.cast(left_end, right, 0.0, 0.6).hit) << point.transpose() << ", at " << height << " m";
+  }
+}
+
+bool is_flown(const Route& route) {
+  return route.name == "figure_of_eight" || route.name == "level" || route.name == "over_the_roof";
+}
+
+TEST(SceneRoutes, EverySceneHasRoutesThatCanBeWalkedOrFlown) {
+  for (const SceneInfo& scene : scene_library()) {
+    for (const SceneValues& values : extreme_values(scene)) {
+      const World world = make_world(scene.name, values, 3);
+      const RayScene rays(world);
+      ASSERT_FALSE(world.routes().empty()) << scene.name;
+      for (const Route& route : world.routes()) {
+        SCOPED_TRACE(scene.name + " " + route.name + " " + (values.empty() ? "" : values.begin()->first));
+        ASSERT_GE(route.points.size(), 2U);
+        const std::size_t legs = route.points.size() - (route.closed ? 0 : 1);
+        for (std::size_t i = 0; i < legs; ++i) {
+          const Eigen::Vector3d from = route.points[i];
+          const Eigen::Vector3d leg = route.points[(i + 1) % route.points.size()] - from;
+          ASSERT_LE(leg.norm(), 5.0);
+          ASSERT_FALSE(rays.cast(from + Eigen::Vector3d(0.0, 0.0, is_flown(route) ? 0.0 : 1.5), leg.normalized(), 0.0,
+                                 leg.norm())
+                           .hit);
+          for (const double share : {0.0, 0.33, 0.67}) {
+            if (!is_flown(route)) expect_walkable(rays, from + share * leg, leg);
+          }
+          if (::testing::Test::HasFailure()) return;
+        }
+      }
+    }
   }
 }
 
