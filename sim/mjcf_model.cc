@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <mutex>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -23,6 +25,7 @@ constexpr std::uintmax_t kMaxFileBytes = 64U << 20U;
 // same name would be hidden, so they are unlikely ones.
 constexpr char kWrapperName[] = "plumbline-wrapper-7c1f.xml";
 constexpr char kSceneName[] = "plumbline-scene-7c1f.xml";
+constexpr char kMeshExtension[] = ".msh";
 
 /// MuJoCo's messages run over several lines; ours are one.
 std::string on_one_line(std::string_view message) {
@@ -70,10 +73,70 @@ std::string escape_attribute(std::string_view text) {
   return escaped;
 }
 
-// Includes the scene untouched, whatever it holds, and adds the rig body to its world.
-std::string wrapper_mjcf(std::string_view included_file) {
-  return "<mujoco>\n  <include file=\"" + escape_attribute(included_file) + "\"/>\n  <worldbody>\n    <body name=\"" +
+// Geoms that nothing collides with spare MuJoCo their convex hulls.
+std::string mesh_geoms(std::size_t mesh_count) {
+  std::string geoms;
+  for (std::size_t i = 0; i < mesh_count; ++i) {
+    geoms += "    <geom name=\"" + mesh_geom_name(i) + "\" type=\"mesh\" mesh=\"" + mesh_geom_name(i) +
+             "\" contype=\"0\" conaffinity=\"0\" rgba=\"1 1 1 1\"/>\n";
+  }
+  return geoms;
+}
+
+// MuJoCo names a mesh after its file.
+std::string mesh_assets(std::size_t mesh_count) {
+  std::string assets;
+  for (std::size_t i = 0; i < mesh_count; ++i) {
+    assets += "    <mesh file=\"" + mesh_geom_name(i) + kMeshExtension + "\" scale=\"1 1 1\"/>\n";
+  }
+  return assets;
+}
+
+// Includes the scene untouched, whatever it holds, and adds the meshes and the rig body to its world.
+std::string wrapper_mjcf(std::string_view included_file, std::size_t mesh_count) {
+  return "<mujoco>\n  <include file=\"" + escape_attribute(included_file) + "\"/>\n  <asset>\n" +
+         mesh_assets(mesh_count) + "  </asset>\n  <worldbody>\n" + mesh_geoms(mesh_count) + "    <body name=\"" +
          kRigBodyName + "\" mocap=\"true\"/>\n  </worldbody>\n</mujoco>\n";
+}
+
+template <typename T>
+std::span<const std::byte> bytes_of(const std::vector<T>& values) {
+  return std::as_bytes(std::span(values));
+}
+
+// MuJoCo's own format: counts of vertices, normals, texture coordinates and faces, and then these. Upright normals are
+// sent along because MuJoCo would take its time to find better ones.
+std::string msh_file(const SceneMesh& mesh) {
+  constexpr std::size_t kLeastVertices = 4;
+  std::vector<Eigen::Vector3f> vertices = mesh.vertices;
+  while (vertices.size() < kLeastVertices) vertices.push_back(vertices.back());
+  const std::vector<Eigen::Vector3f> normals(vertices.size(), Eigen::Vector3f::UnitZ());
+  const auto count = static_cast<std::int32_t>(vertices.size());
+  const std::vector<std::int32_t> counts{count, count, 0, static_cast<std::int32_t>(mesh.triangles.size())};
+  std::string file;
+  for (const auto bytes : {bytes_of(counts), bytes_of(vertices), bytes_of(normals), bytes_of(mesh.triangles)}) {
+    file.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  }
+  return file;
+}
+
+void restore_vertices(mjModel& model, const SceneMesh& mesh, int geom) {
+  const int id = model.geom_dataid[geom];
+  float* vertex = model.mesh_vert + 3L * model.mesh_vertadr[id];
+  std::fill_n(vertex, 3L * model.mesh_vertnum[id], 0.0F);
+  double radius = 0.0;
+  Eigen::Vector3d half_size = Eigen::Vector3d::Zero();  // of the box about the origin in which mj_ray looks
+  for (const Eigen::Vector3f& given : mesh.vertices) {
+    vertex = std::copy_n(given.data(), 3, vertex);
+    radius = std::max(radius, given.cast<double>().norm());
+    half_size = half_size.cwiseMax(given.cast<double>().cwiseAbs());
+  }
+  const mjtNum unturned[4] = {1, 0, 0, 0};
+  std::copy_n(mesh.origin.data(), 3, model.geom_pos + 3L * geom);
+  std::copy_n(unturned, 4, model.geom_quat + 4L * geom);
+  std::copy_n(half_size.data(), 3, model.geom_size + 3L * geom);
+  model.geom_sameframe[geom] = 0;  // MuJoCo skips the pose of a geom that stands as its body does
+  model.geom_rbound[geom] = radius;
 }
 
 class VirtualFiles {
@@ -178,12 +241,21 @@ void check_readable(const std::filesystem::path& path) {
 void MjModelDeleter::operator()(mjModel_* model) const { mj_deleteModel(model); }
 void MjDataDeleter::operator()(mjData_* data) const { mj_deleteData(data); }
 
-MjModelPtr compile_mjcf(const std::string& mjcf) {
+std::string mesh_geom_name(std::size_t mesh) { return "plumbline_mesh_" + std::to_string(mesh); }
+
+MjModelPtr compile_mjcf(const std::string& mjcf, const std::vector<SceneMesh>& meshes) {
   install_mujoco_handlers();
   VirtualFiles files;
   files.add(kSceneName, mjcf);
-  files.add(kWrapperName, wrapper_mjcf(kSceneName));
-  return load(kWrapperName, files);
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    files.add((mesh_geom_name(i) + kMeshExtension).c_str(), msh_file(meshes[i]));
+  }
+  files.add(kWrapperName, wrapper_mjcf(kSceneName, meshes.size()));
+  MjModelPtr model = load(kWrapperName, files);
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    restore_vertices(*model, meshes[i], mj_name2id(model.get(), mjOBJ_GEOM, mesh_geom_name(i).c_str()));
+  }
+  return model;
 }
 
 MjModelPtr compile_mjcf_file(const std::filesystem::path& path) {
@@ -195,7 +267,7 @@ MjModelPtr compile_mjcf_file(const std::filesystem::path& path) {
   }
   try {
     VirtualFiles files;
-    files.add(kWrapperName, wrapper_mjcf(path.filename().string()));
+    files.add(kWrapperName, wrapper_mjcf(path.filename().string(), 0));
     return load((std::filesystem::absolute(path).parent_path() / kWrapperName).string(), files);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(path.string() + ": " + error.what() + missing_files(path));

@@ -14,6 +14,7 @@
 #include "sim/scenes/ground_and_wall.h"
 #include "sim/scenes/hall.h"
 #include "sim/scenes/lobby.h"
+#include "sim/scenes/sphere.h"
 #include "sim/scenes/striped_walls.h"
 #include "sim/scenes/tunnel.h"
 

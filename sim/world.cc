@@ -71,6 +71,19 @@ std::vector<int> assign_materials(const mjModel& model, std::vector<Material>& m
   return material_of_geom;
 }
 
+void assign_mesh_materials(const mjModel& model, const std::vector<SceneMesh>& meshes,
+                           const std::vector<Material>& materials, std::vector<int>& material_of_geom) {
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    const int material = index_of(materials, meshes[i].material);
+    if (material < 0) {
+      throw std::invalid_argument("scene: mesh '" + meshes[i].name + "' has material '" + meshes[i].material +
+                                  "', which the scene does not describe");
+    }
+    const int geom = mj_name2id(&model, mjOBJ_GEOM, mesh_geom_name(i).c_str());
+    material_of_geom[static_cast<std::size_t>(geom)] = material;
+  }
+}
+
 // A directional light is a lamp so far off that its light arrives almost parallel.
 Lamp distant_lamp(const mjModel& model, const Eigen::Vector3d& direction, double strength) {
   const double distance = 4.0 * std::max(model.stat.extent, 1.0);
@@ -152,11 +165,14 @@ World::~World() = default;
 
 World World::from_scene(const SceneDescription& scene, std::uint64_t world_seed) {
   World world;
-  world.model_ = compile_mjcf(scene.mjcf);
+  check_meshes(scene.meshes);
+  const std::vector<SceneMesh> meshes = joined_meshes(scene.meshes, kMaxMeshes);
+  world.model_ = compile_mjcf(scene.mjcf, meshes);
   world.data_ = forward_initial_state(*world.model_);
   world.rig_body_ = mj_name2id(world.model_.get(), mjOBJ_BODY, kRigBodyName);
   world.materials_ = scene.materials;
   world.material_of_geom_ = assign_materials(*world.model_, world.materials_);
+  assign_mesh_materials(*world.model_, meshes, scene.materials, world.material_of_geom_);
   world.lamps_ = scene.lamps;
   world.ambient_lux_ = scene.ambient_lux;
   world.sun_ = scene.sun;

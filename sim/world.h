@@ -11,6 +11,7 @@
 
 #include "estimator/geometry/pose.h"
 #include "sim/mjcf_model.h"
+#include "sim/scene_mesh.h"
 
 namespace plumbline {
 
@@ -38,6 +39,7 @@ struct Material {
   float contrast = 1.0F;                           ///< 0: textureless, 1: the pattern's own contrast
   float lidar_reflectivity = 0.5F;                 ///< at 905 nm [0, 1]
   Eigen::Vector3f tint = Eigen::Vector3f::Ones();  ///< colour: linear red, green, blue, each a factor on the albedo
+  bool two_sided = false;                          ///< drawn from behind, too: leaves, not walls (rays see both sides)
 };
 
 /// A point lamp that shines into all directions.
@@ -68,16 +70,6 @@ struct Atmosphere {
   double fog_visibility_m = std::numeric_limits<double>::infinity();
   double dust_visibility_m = std::numeric_limits<double>::infinity();  ///< coarse grains: single returns to a lidar
   double rain_mm_per_h = 0.0;
-};
-
-/// Scenery of one material as triangles, counter-clockwise seen from outside. Scenes of thousands of parts hand over a
-/// few meshes, each within some 60 m, in place of as many geoms.
-struct SceneMesh {
-  std::string name;  ///< unique in the scene
-  std::string material;
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< world; keeps the vertices precise far away
-  std::vector<Eigen::Vector3f> vertices;             ///< relative to origin, axes of the world [m]
-  std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
 /// A way through a scene that a vehicle or walker can take.

@@ -69,7 +69,7 @@ void add_columns(MjcfWriter& writer, const Plan& plan) {
 
 void add_reception(MjcfWriter& writer, const Plan& plan) {
   RandomStream stream(plan.seed, "lobby/reception");
-  const Pose frame = upright_frame({plan.half.x() / 2.0, 0.0, 0.0}, M_PI / 2.0);  // y towards -x, the visitors
+  const Pose frame = upright_frame({plan.half.x() / 2.0 - 0.6, 0.0, 0.0}, M_PI / 2.0);  // y towards -x, the visitors
   writer.box("wood_brown", {-1.8, 0.0, 0.0}, {1.8, 0.15, 1.1}, frame);
   writer.box("concrete_pale", {-1.9, -0.2, 1.1}, {1.9, 0.3, 1.15}, frame);
   writer.box("wood_pale", {-1.8, -0.75, 0.7}, {1.8, 0.0, 0.75}, frame);

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <initializer_list>
 #include <stdexcept>
+#include <utility>
 
 namespace plumbline {
 namespace {
@@ -37,6 +38,11 @@ std::string orientation(const Eigen::Quaterniond& q) {
 void MjcfWriter::begin_geom(const char* type, const std::string& material) {
   used_materials_.insert(material);
   geoms_ += std::string("    <geom type=\"") + type + "\" material=\"" + material + '"';
+}
+
+void MjcfWriter::mesh(SceneMesh mesh) {
+  used_materials_.insert(mesh.material);
+  meshes_.push_back(std::move(mesh));
 }
 
 void MjcfWriter::box(const std::string& material, const Eigen::Vector3d& low, const Eigen::Vector3d& high,
@@ -88,6 +94,7 @@ SceneDescription MjcfWriter::finish(const std::string& model_name, const std::ve
                "  <default><geom contype=\"0\" conaffinity=\"0\"/></default>\n"  // scenery never moves
                "  <asset>\n" +
                assets + "  </asset>\n  <worldbody>\n" + geoms_ + "  </worldbody>\n</mujoco>\n";
+  scene.meshes = meshes_;
   scene.lamps = lamps_;
   scene.ambient_lux = ambient_lux;
   scene.sky_luminance = sky_luminance;

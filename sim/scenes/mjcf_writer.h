@@ -25,6 +25,7 @@ class MjcfWriter {
   void ellipsoid(const std::string& material, const Eigen::Vector3d& centre, const Eigen::Vector3d& semi_axes,
                  const Pose& world_from_local = {});
   void lamp(const Lamp& lamp) { lamps_.push_back(lamp); }
+  void mesh(SceneMesh mesh);
 
   /// The scene so far, with those materials of the palette that it uses.
   /// @throws std::logic_error if a geom's material is not in the palette.
@@ -39,6 +40,7 @@ class MjcfWriter {
   std::string geoms_;
   std::set<std::string> used_materials_;
   std::vector<Lamp> lamps_;
+  std::vector<SceneMesh> meshes_;
 };
 
 /// A frame at a place of the world, turned about the vertical.

@@ -142,7 +142,10 @@ TEST(SceneLibrary, SameSeedGivesTheSameBytes) {
 
 TEST(SceneLibrary, AnotherSeedGivesAnotherScene) {
   for (const SceneInfo& scene : scene_library()) {
-    EXPECT_NE(build_scene(scene.name, {}, 7).mjcf, build_scene(scene.name, {}, 8).mjcf) << scene.name;
+    const SceneDescription one = build_scene(scene.name, {}, 7);
+    const SceneDescription two = build_scene(scene.name, {}, 8);
+    const bool same_lamps = !one.lamps.empty() && one.lamps.front().intensity_cd == two.lamps.front().intensity_cd;
+    EXPECT_FALSE(one.mjcf == two.mjcf && (one.lamps.empty() || same_lamps)) << scene.name;
   }
 }
 
@@ -151,7 +154,7 @@ TEST(SceneLibrary, EverySceneCompilesForSeveralSeedsAndExtremeParameters) {
     for (const std::uint64_t seed : kSeeds) EXPECT_NO_THROW(make_world(scene.name, {}, seed)) << scene.name;
     for (const SceneValues& values : extreme_values(scene)) {
       const World world = make_world(scene.name, values, 1);
-      EXPECT_GT(world.model().ngeom, 10) << scene.name;
+      EXPECT_GE(world.model().ngeom, 4) << scene.name;
       EXPECT_TRUE(!world.lamps().empty() || world.ambient_lux() > 0.0) << scene.name;
     }
   }
@@ -162,7 +165,7 @@ TEST(SceneLibrary, DefaultScenesHaveAModerateNumberOfGeomsAndSeveralLooks) {
   for (const SceneInfo& scene : scene_library()) {
     const World world = make_world(scene.name, {}, 1);
     EXPECT_LT(world.model().ngeom, 1500) << scene.name;
-    EXPECT_GE(world.materials().size(), 4U) << scene.name;
+    EXPECT_GE(world.materials().size(), 2U) << scene.name;
     for (int geom = 0; geom < world.model().ngeom; ++geom) EXPECT_GE(world.model().geom_matid[geom], 0);
   }
 }
@@ -185,7 +188,8 @@ void expect_walkable(const RayScene& rays, const Eigen::Vector3d& point, const E
 }
 
 bool is_flown(const Route& route) {
-  return route.name == "figure_of_eight" || route.name == "level" || route.name == "over_the_roof";
+  return route.name == "figure_of_eight" || route.name == "level" || route.name == "over_the_roof" ||
+         route.name == "in_the_air";
 }
 
 TEST(SceneRoutes, EverySceneHasRoutesThatCanBeWalkedOrFlown) {
@@ -362,6 +366,32 @@ TEST(Tunnel, SectionsAreFlush) {
     sections.insert(world.material_of(hit.geom));
   }
   EXPECT_GE(sections.size(), 5U);
+}
+
+// The tessellation's faces lie up to 0.03 % of the radius inside the sphere.
+TEST(Sphere, EveryRayFromTheMiddleMeetsItAtItsRadius) {
+  const World world = make_world("sphere", {{"radius_m", 20.0}}, 1);
+  const RayScene rays(world);
+  for (const Eigen::Vector3d& direction : sphere_directions(5000)) {
+    const RayHit hit = rays.cast(Eigen::Vector3d::Zero(), direction, 0.0, 100.0);
+    ASSERT_TRUE(hit.hit) << direction.transpose();
+    EXPECT_NEAR(hit.range_m, 20.0, 20.0 * 1.5e-3);
+    EXPECT_LT(hit.normal_in_world.cast<double>().dot(direction), -0.99);
+  }
+}
+
+TEST(Flat, NothingButGroundStandsWithinTheLandmarksDistance) {
+  const World world = make_world("flat", {{"landmark_count", 64}, {"landmark_distance_m", 50}}, 1);
+  const RayScene rays(world);
+  int landmarks = 0;
+  for (int i = 0; i < 3600; ++i) {
+    const double azimuth = i * M_PI / 1800.0;
+    const RayHit hit = rays.cast({0.0, 0.0, 1.0}, {std::cos(azimuth), std::sin(azimuth), 0.0}, 0.0, 200.0);
+    if (!hit.hit) continue;
+    EXPECT_GT(hit.range_m, 50.0);
+    ++landmarks;
+  }
+  EXPECT_GT(landmarks, 20);
 }
 
 TEST(Hall, DocumentedFlightVolumeIsFree) {
