@@ -4,6 +4,7 @@
 #include <string>
 
 #include "sim/scenes/mesh_builder.h"
+#include "sim/scenes/mjcf_writer.h"
 #include "sim/scenes/palette.h"
 #include "sim/scenes/routes.h"
 
