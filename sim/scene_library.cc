@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "sim/scenes/building.h"
 #include "sim/scenes/conference_room.h"
 #include "sim/scenes/corridor.h"
 #include "sim/scenes/dark_room.h"
@@ -12,6 +13,8 @@
 #include "sim/scenes/garage.h"
 #include "sim/scenes/ground_and_wall.h"
 #include "sim/scenes/hall.h"
+#include "sim/scenes/lobby.h"
+#include "sim/scenes/sphere.h"
 #include "sim/scenes/street.h"
 #include "sim/scenes/striped_walls.h"
 #include "sim/scenes/tunnel.h"
@@ -60,9 +63,10 @@ SceneValues complete_values(const SceneInfo& scene, const SceneValues& overrides
 
 const std::vector<SceneInfo>& scene_library() {
   static const std::vector<SceneInfo> scenes = {
-      garage_scene(),          corridor_scene(),  tunnel_scene(),        hall_scene(),
-      conference_room_scene(), dark_room_scene(), striped_walls_scene(), flat_scene(),
-      ground_and_wall_scene(), street_scene()};
+      garage_scene(),        corridor_scene(), tunnel_scene(),          hall_scene(),
+      lobby_scene(),         building_scene(), conference_room_scene(), dark_room_scene(),
+      striped_walls_scene(), sphere_scene(),   flat_scene(),            ground_and_wall_scene(),
+      street_scene()};
   return scenes;
 }
 

@@ -163,14 +163,14 @@ void add_lamps(MjcfWriter& writer, const Plan& plan) {
 
 // Two loops side by side, rising and falling within the free volume above the crates.
 Route figure_of_eight(const Plan& plan) {
-  constexpr int kPoints = 64;
+  const int points = static_cast<int>(2.0 * (plan.half_length + plan.half_width));
   const double x = plan.half_length - 7.0;
   const double y = plan.half_width - 6.5;
   const double low = std::max(3.0, 0.3 * plan.height);
   const double high = 0.6 * plan.height;
-  Route route{.name = "figure_of_eight", .closed = true};
-  for (int i = 0; i < kPoints; ++i) {
-    const double angle = 2.0 * M_PI * i / kPoints;
+  Route route{.name = "figure_of_eight", .points = {}, .closed = true};
+  for (int i = 0; i < points; ++i) {
+    const double angle = 2.0 * M_PI * i / points;
     route.points.emplace_back(x * std::sin(angle), y * std::sin(2.0 * angle),
                               low + (high - low) * (0.5 + 0.5 * std::sin(angle + 1.0)));
   }

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <initializer_list>
 #include <stdexcept>
+#include <utility>
 
 namespace plumbline {
 namespace {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/scenes/palette.h"
+#include "sim/scenes/routes.h"
 #include "sim/scenes/walls.h"
 
 namespace plumbline {
@@ -21,6 +22,7 @@ struct Plan {
   bool round = false;
   double rib_spacing = 0.0;
   double rib_depth = 0.0;
+  double lamp_spacing = 0.0;
   std::uint64_t seed = 0;
 };
 
@@ -128,9 +130,10 @@ std::vector<Strip> round_lining(const Plan& plan) {
 
 void add_ribs(MjcfWriter& writer, const Plan& plan, const std::vector<Strip>& lining) {
   constexpr double kRibHalfM = 0.15;
+  RandomStream stream(plan.seed, "tunnel/ribs");
   const int count = static_cast<int>(2.0 * plan.half_length / plan.rib_spacing);
-  for (int i = 0; i < count; ++i) {
-    const double x = (i + 0.5 - count / 2.0) * plan.rib_spacing;
+  for (int i = 0; i < count; ++i) {  // no two gaps are the same
+    const double x = (i + 0.5 - count / 2.0 + stream.uniform(-0.15, 0.15)) * plan.rib_spacing;
     for (const Strip& strip : lining) {
       const double y = strip.width / 2.0;
       writer.box("concrete_pale", {x - kRibHalfM, -y, 0.0}, {x + kRibHalfM, y, plan.rib_depth}, frame_of(strip));
@@ -140,11 +143,10 @@ void add_ribs(MjcfWriter& writer, const Plan& plan, const std::vector<Strip>& li
 
 // No housings: they would stick out of the ceiling.
 void add_lamps(MjcfWriter& writer, const Plan& plan) {
-  constexpr double kSpacing = 7.0;
   RandomStream stream(plan.seed, "tunnel/lamps");
-  const int count = static_cast<int>(2.0 * plan.half_length / kSpacing);
+  const int count = static_cast<int>(2.0 * plan.half_length / plan.lamp_spacing);
   for (int i = 0; i < count; ++i) {
-    const double x = (i + 0.5 - count / 2.0) * kSpacing + stream.uniform(-0.8, 0.8);
+    const double x = (i + 0.5 - count / 2.0) * plan.lamp_spacing + stream.uniform(-0.8, 0.8);
     const double y = stream.uniform(-0.5, 0.5);
     writer.lamp({{x, y, plan.height - 0.7}, stream.uniform(200.0, 320.0), 14.0});
   }
@@ -157,12 +159,19 @@ Plan make_plan(const SceneValues& values, std::uint64_t world_seed) {
                   .round = values.at("round_section") > 0.5,
                   .rib_spacing = values.at("rib_spacing_m"),
                   .rib_depth = values.at("rib_depth_m"),
+                  .lamp_spacing = values.at("lamp_spacing_m"),
                   .seed = world_seed};
   if (plan.rib_spacing > 0.0 && plan.rib_spacing < kMinRibSpacingM) {
     throw std::invalid_argument("scene tunnel: rib_spacing_m is " + std::to_string(plan.rib_spacing) +
                                 "; allowed are 0 for no ribs, or 2 to 100");
   }
   return plan;
+}
+
+Route along_the_middle(const Plan& plan) {
+  constexpr double kClearOfEndsM = 15.0;
+  const double x = plan.half_length - kClearOfEndsM;
+  return make_route("along_the_middle", {{-x, 0.0, 0.0}, {x, 0.0, 0.0}}, 0.0);
 }
 
 SceneDescription build_tunnel(const SceneValues& values, std::uint64_t world_seed) {
@@ -173,7 +182,9 @@ SceneDescription build_tunnel(const SceneValues& values, std::uint64_t world_see
   for (const Strip& strip : road_strips(plan.half_width)) add_strip(writer, plan, strip);
   if (plan.rib_spacing > 0.0) add_ribs(writer, plan, lining);
   add_lamps(writer, plan);
-  return writer.finish("tunnel", scene_palette(), 25.0, 0.0);
+  SceneDescription scene = writer.finish("tunnel", scene_palette(), 25.0, 0.0);
+  scene.routes = {along_the_middle(plan)};
+  return scene;
 }
 
 }  // namespace
@@ -186,7 +197,8 @@ SceneInfo tunnel_scene() {
                          {"height_m", 4, 3, 8, "above the road"},
                          {"round_section", 0, 0, 1, "0: box, 1: round vault", true},
                          {"rib_spacing_m", 0, 0, 100, "between ribs; 0: none, otherwise at least 2"},
-                         {"rib_depth_m", 0.15, 0.02, 0.4, "by which ribs stand out of the walls"}},
+                         {"rib_depth_m", 0.15, 0.02, 0.4, "by which ribs stand out of the walls"},
+                         {"lamp_spacing_m", 7, 3, 30, "between lamps, give or take 0.8"}},
           .build = build_tunnel};
 }
 

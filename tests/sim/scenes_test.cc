@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "sim/ray_scene.h"
 #include "sim/scene_library.h"
 #include "sim/world.h"
 #include "tests/sim/scene_routes.h"
@@ -141,7 +142,10 @@ TEST(SceneLibrary, SameSeedGivesTheSameBytes) {
 
 TEST(SceneLibrary, AnotherSeedGivesAnotherScene) {
   for (const SceneInfo& scene : scene_library()) {
-    EXPECT_NE(build_scene(scene.name, {}, 7).mjcf, build_scene(scene.name, {}, 8).mjcf) << scene.name;
+    const SceneDescription one = build_scene(scene.name, {}, 7);
+    const SceneDescription two = build_scene(scene.name, {}, 8);
+    const bool same_lamps = !one.lamps.empty() && one.lamps.front().intensity_cd == two.lamps.front().intensity_cd;
+    EXPECT_FALSE(one.mjcf == two.mjcf && (one.lamps.empty() || same_lamps)) << scene.name;
   }
 }
 
@@ -150,8 +154,8 @@ TEST(SceneLibrary, EverySceneCompilesForSeveralSeedsAndExtremeParameters) {
     for (const std::uint64_t seed : kSeeds) EXPECT_NO_THROW(make_world(scene.name, {}, seed)) << scene.name;
     for (const SceneValues& values : extreme_values(scene)) {
       const World world = make_world(scene.name, values, 1);
-      EXPECT_GT(world.model().ngeom, 10) << scene.name;
-      EXPECT_FALSE(world.lamps().empty()) << scene.name;
+      EXPECT_GE(world.model().ngeom, 4) << scene.name;
+      EXPECT_TRUE(!world.lamps().empty() || world.ambient_lux() > 0.0) << scene.name;
     }
   }
 }
@@ -160,9 +164,58 @@ TEST(SceneLibrary, EverySceneCompilesForSeveralSeedsAndExtremeParameters) {
 TEST(SceneLibrary, DefaultScenesHaveAModerateNumberOfGeomsAndSeveralLooks) {
   for (const SceneInfo& scene : scene_library()) {
     const World world = make_world(scene.name, {}, 1);
-    EXPECT_LT(world.model().ngeom, 750) << scene.name;
-    EXPECT_GE(world.materials().size(), 12U) << scene.name;
+    EXPECT_LT(world.model().ngeom, 1500) << scene.name;
+    EXPECT_GE(world.materials().size(), 2U) << scene.name;
     for (int geom = 0; geom < world.model().ngeom; ++geom) EXPECT_GE(world.model().geom_matid[geom], 0);
+  }
+}
+
+/// Whether a route of a scene that is walked is clear at a point: 0.3 m to both sides, and to 1.9 m above.
+void expect_walkable(const RayScene& rays, const Eigen::Vector3d& point, const Eigen::Vector3d& along) {
+  constexpr double kStepsUp = 0.25;  // what a foot steps over
+  const RayHit floor = rays.cast(point + Eigen::Vector3d(0.0, 0.0, kStepsUp), -Eigen::Vector3d::UnitZ(), 0.0, 1.0);
+  ASSERT_TRUE(floor.hit) << point.transpose();
+  EXPECT_NEAR(floor.range_m, kStepsUp, 0.21) << point.transpose();
+  const Eigen::Vector3d right = along.cross(Eigen::Vector3d::UnitZ()).normalized();
+  for (const double side : {-0.3, 0.0, 0.3}) {
+    const Eigen::Vector3d foot = point + side * right + Eigen::Vector3d(0.0, 0.0, kStepsUp);
+    EXPECT_FALSE(rays.cast(foot, Eigen::Vector3d::UnitZ(), 0.0, 1.9 - kStepsUp).hit) << point.transpose();
+  }
+  for (const double height : {0.4, 1.0, 1.7}) {
+    const Eigen::Vector3d left_end = point - 0.3 * right + Eigen::Vector3d(0.0, 0.0, height);
+    EXPECT_FALSE(rays.cast(left_end, right, 0.0, 0.6).hit) << point.transpose() << ", at " << height << " m";
+  }
+}
+
+bool is_flown(const Route& route) {
+  return route.name == "figure_of_eight" || route.name == "level" || route.name == "over_the_roof" ||
+         route.name == "in_the_air";
+}
+
+TEST(SceneRoutes, EverySceneHasRoutesThatCanBeWalkedOrFlown) {
+  for (const SceneInfo& scene : scene_library()) {
+    for (const SceneValues& values : extreme_values(scene)) {
+      const World world = make_world(scene.name, values, 3);
+      const RayScene rays(world);
+      ASSERT_FALSE(world.routes().empty()) << scene.name;
+      for (const Route& route : world.routes()) {
+        SCOPED_TRACE(scene.name + " " + route.name + " " + (values.empty() ? "" : values.begin()->first));
+        ASSERT_GE(route.points.size(), 2U);
+        const std::size_t legs = route.points.size() - (route.closed ? 0 : 1);
+        for (std::size_t i = 0; i < legs; ++i) {
+          const Eigen::Vector3d from = route.points[i];
+          const Eigen::Vector3d leg = route.points[(i + 1) % route.points.size()] - from;
+          ASSERT_LE(leg.norm(), 5.0);
+          ASSERT_FALSE(rays.cast(from + Eigen::Vector3d(0.0, 0.0, is_flown(route) ? 0.0 : 1.5), leg.normalized(), 0.0,
+                                 leg.norm())
+                           .hit);
+          for (const double share : {0.0, 0.33, 0.67}) {
+            if (!is_flown(route)) expect_walkable(rays, from + share * leg, leg);
+          }
+          if (::testing::Test::HasFailure()) return;
+        }
+      }
+    }
   }
 }
 
@@ -313,6 +366,32 @@ TEST(Tunnel, SectionsAreFlush) {
     sections.insert(world.material_of(hit.geom));
   }
   EXPECT_GE(sections.size(), 5U);
+}
+
+// The tessellation's faces lie up to 0.03 % of the radius inside the sphere.
+TEST(Sphere, EveryRayFromTheMiddleMeetsItAtItsRadius) {
+  const World world = make_world("sphere", {{"radius_m", 20.0}}, 1);
+  const RayScene rays(world);
+  for (const Eigen::Vector3d& direction : sphere_directions(5000)) {
+    const RayHit hit = rays.cast(Eigen::Vector3d::Zero(), direction, 0.0, 100.0);
+    ASSERT_TRUE(hit.hit) << direction.transpose();
+    EXPECT_NEAR(hit.range_m, 20.0, 20.0 * 1.5e-3);
+    EXPECT_LT(hit.normal_in_world.cast<double>().dot(direction), -0.99);
+  }
+}
+
+TEST(Flat, NothingButGroundStandsWithinTheLandmarksDistance) {
+  const World world = make_world("flat", {{"landmark_count", 64}, {"landmark_distance_m", 50}}, 1);
+  const RayScene rays(world);
+  int landmarks = 0;
+  for (int i = 0; i < 3600; ++i) {
+    const double azimuth = i * M_PI / 1800.0;
+    const RayHit hit = rays.cast({0.0, 0.0, 1.0}, {std::cos(azimuth), std::sin(azimuth), 0.0}, 0.0, 200.0);
+    if (!hit.hit) continue;
+    EXPECT_GT(hit.range_m, 50.0);
+    ++landmarks;
+  }
+  EXPECT_GT(landmarks, 20);
 }
 
 TEST(Hall, DocumentedFlightVolumeIsFree) {

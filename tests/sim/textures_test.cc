@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -11,8 +12,8 @@ namespace {
 
 using Pattern = Material::Pattern;
 
-constexpr Pattern kPatterns[] = {Pattern::kPlain,  Pattern::kConcrete, Pattern::kBrick,
-                                 Pattern::kPanels, Pattern::kSigns,    Pattern::kAsphalt};
+constexpr Pattern kPatterns[] = {Pattern::kPlain, Pattern::kConcrete, Pattern::kBrick, Pattern::kPanels,
+                                 Pattern::kSigns, Pattern::kAsphalt,  Pattern::kWood,  Pattern::kFabric};
 
 double mean_of(const std::vector<float>& texels) {
   return std::accumulate(texels.begin(), texels.end(), 0.0) / static_cast<double>(texels.size());
@@ -60,6 +61,31 @@ TEST(Textures, ContrastIsThereFromCentimetresToMetres) {
     EXPECT_GT(upper, 0.05);
     EXPECT_GT(all * all - upper * upper, 0.05 * 0.05);
   }
+}
+
+/// Sums of the differences between neighbours along a row and down a column.
+Eigen::Vector2d steps_along_and_down(const Texture& texture) {
+  Eigen::Vector2d steps = Eigen::Vector2d::Zero();
+  const auto at = [&](int x, int y) { return texture.levels[0][static_cast<std::size_t>(y * texture.size + x)]; };
+  for (int y = 0; y + 1 < texture.size; ++y) {
+    for (int x = 0; x + 1 < texture.size; ++x) {
+      steps += Eigen::Vector2d(std::abs(at(x + 1, y) - at(x, y)), std::abs(at(x, y + 1) - at(x, y)));
+    }
+  }
+  return steps;
+}
+
+TEST(Textures, StripesHaveEdgesOfOneDirectionOnly) {
+  const auto upright = make_textures(Material{.name = "a", .pattern = Pattern::kStripesVertical}, 7);
+  const auto level = make_textures(Material{.name = "a", .pattern = Pattern::kStripesHorizontal}, 7);
+  const Eigen::Vector2d across = steps_along_and_down(upright.structure);
+  const Eigen::Vector2d down = steps_along_and_down(level.structure);
+  EXPECT_GT(across.x(), 1000.0);
+  EXPECT_LT(across.y(), 1e-3 * across.x());
+  EXPECT_GT(down.y(), 1000.0);
+  EXPECT_LT(down.x(), 1e-3 * down.y());
+  EXPECT_NEAR(deviation_of(upright.wear.levels[0]), 0.0, 1e-6);
+  EXPECT_NEAR(deviation_of(level.wear.levels[0]), 0.0, 1e-6);
 }
 
 TEST(Textures, FollowSeedAndNameAndNothingElse) {

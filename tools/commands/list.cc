@@ -29,12 +29,12 @@ std::string first_comment(const fs::path& path) {
   return line.substr(std::min(line.find_first_not_of("# "), line.size()));
 }
 
-/// The library in the source tree, or the one installed beside the program.
-fs::path scenario_library() {
+/// A folder installed beside the program, or the one in the source tree.
+fs::path library_folder(const char* installed, const char* in_source_tree) {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   for (const fs::path& candidate :
-       {program.parent_path() / "../share/plumbline/scenarios", fs::path(PLUMBLINE_SCENARIO_DIR)}) {
+       {program.parent_path() / "../share/plumbline" / installed, fs::path(in_source_tree)}) {
     if (fs::is_directory(candidate, error)) return candidate;
   }
   return {};
@@ -43,7 +43,7 @@ fs::path scenario_library() {
 void list_scenarios() {
   std::vector<fs::path> files;
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(scenario_library(), error)) {
+  for (const auto& entry : fs::directory_iterator(library_folder("scenarios", PLUMBLINE_SCENARIO_DIR), error)) {
     if (entry.path().extension() == ".yaml") files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
@@ -61,8 +61,10 @@ void list_estimators() {
 }
 
 void list_scenes() {
+  const fs::path pictures = library_folder("pictures", PLUMBLINE_PICTURE_DIR);
   for (const SceneInfo& scene : scene_library()) {
     print_row(scene.name, scene.summary, 18);
+    print_row("  picture", (pictures / (scene.name + ".jpg")).string(), 26);
     for (const SceneParameter& parameter : scene.parameters) {
       print_row("  " + parameter.name,
                 readable_text(parameter.default_value) + " (" + readable_text(parameter.min) + " … " +
