@@ -5,11 +5,19 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "sim/scenes/bridge.h"
+#include "sim/scenes/campus.h"
 #include "sim/scenes/corridor.h"
 #include "sim/scenes/garage.h"
 #include "sim/scenes/hall.h"
+#include "sim/scenes/highway.h"
+#include "sim/scenes/lawn.h"
+#include "sim/scenes/orchard.h"
+#include "sim/scenes/shed_site.h"
 #include "sim/scenes/street.h"
+#include "sim/scenes/trail.h"
 #include "sim/scenes/tunnel.h"
+#include "sim/scenes/vegetated_road.h"
 
 namespace plumbline {
 namespace {
@@ -54,7 +62,10 @@ SceneValues complete_values(const SceneInfo& scene, const SceneValues& overrides
 }  // namespace
 
 const std::vector<SceneInfo>& scene_library() {
-  static const std::vector<SceneInfo> scenes = {garage_scene(), corridor_scene(), tunnel_scene(), hall_scene(), street_scene()};
+  static const std::vector<SceneInfo> scenes = {
+      garage_scene(), corridor_scene(), tunnel_scene(),   hall_scene(),    street_scene(),
+      campus_scene(), highway_scene(),  bridge_scene(),   orchard_scene(), vegetated_road_scene(),
+      trail_scene(),  lawn_scene(),     shed_site_scene()};
   return scenes;
 }
 

@@ -165,7 +165,8 @@ void draw_facade(TileCanvas& canvas, RandomStream& stream) {
       canvas.add_box(centre, {5.0F, half_size.y()}, 0.0F, 0.7F);
       canvas.add_box(centre + Eigen::Vector2f(0.0F, half_size.y() + 22.0F), {half_size.x() + 24.0F, 9.0F}, 0.0F, 0.3F);
     }
-    canvas.add_box({0.5F * kTextureSize, static_cast<float>(floor) * kPitch}, {0.5F * kTextureSize, 6.0F}, 0.0F, -0.25F);
+    canvas.add_box({0.5F * kTextureSize, static_cast<float>(floor) * kPitch}, {0.5F * kTextureSize, 6.0F}, 0.0F,
+                   -0.25F);
   }
   add_chips(canvas, 1.5F, 24.0F, 0.015F, 0.25F, stream);
 }

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 struct CarShape {
   double length = 4.3;
   double width = 1.76;
-  double belt = 0.9;   // height of the bonnet and of the windows' lower edge
+  double belt = 0.9;  // height of the bonnet and of the windows' lower edge
   double roof = 1.45;
   double screen_foot = 0.9, screen_top = 0.25;  // x of the windscreen
   double rear_top = -1.1, rear_foot = -1.7;     // x of the rear window
@@ -95,10 +95,9 @@ void add_parked_car(Scenery& scenery, RandomStream& stream, const Pose& world_fr
   const std::string paint = pick(stream, car_paints());
   const double nose = 0.5 * car.length;
   const double half = 0.5 * car.width;
-  const std::vector<Vector2d> body = {{-nose, 0.38},          {-nose + 0.15, 0.2},
-                                      {nose - 0.15, 0.2},     {nose, 0.38},
-                                      {nose - 0.05, 0.72},    {car.screen_foot, car.belt},
-                                      {car.rear_foot, car.belt}, {-nose + 0.02, car.belt - 0.06}};
+  const std::vector<Vector2d> body = {
+      {-nose, 0.38},       {-nose + 0.15, 0.2},         {nose - 0.15, 0.2},        {nose, 0.38},
+      {nose - 0.05, 0.72}, {car.screen_foot, car.belt}, {car.rear_foot, car.belt}, {-nose + 0.02, car.belt - 0.06}};
   scenery.prism(paint, body, -half, half, world_from_car);
   add_cabin(scenery, paint, car, world_from_car);
   for (const double x : {0.6 * nose, -0.6 * nose}) {
@@ -121,7 +120,8 @@ void add_moving_car(MjcfWriter& writer, RandomStream& stream, const std::string&
   writer.box(paint, {-nose, -half, 0.22}, {nose, half, 0.72});
   writer.box(paint, {-nose + 0.06, -half + 0.02, 0.72}, {car.screen_foot, half - 0.02, car.belt});
   const double inset = 0.14;
-  writer.box("glass", {car.rear_foot + 0.12, -half + inset, car.belt}, {car.screen_foot - 0.3, half - inset, car.roof - 0.1});
+  writer.box("glass", {car.rear_foot + 0.12, -half + inset, car.belt},
+             {car.screen_foot - 0.3, half - inset, car.roof - 0.1});
   writer.box(paint, {car.rear_top - 0.05, -half + inset - 0.03, car.roof - 0.1},
              {car.screen_top + 0.05, half - inset + 0.03, car.roof});
   for (const double x : {car.screen_foot - 0.35, 0.5 * (car.screen_foot + car.rear_foot)}) {

@@ -117,19 +117,19 @@ Tree draw_tree(RandomStream& stream, Species species, double density) {
   const double size = stream.uniform(0.75, 1.3);
   switch (species) {
     case Species::kLinden:
-      tree = {species, 8.5 * size, 2.9 * size, 2.6, 320, 0.50};
+      tree = {species, 8.5 * size, 2.9 * size, 2.6, 520, 0.58};
       break;
     case Species::kPoplar:
-      tree = {species, 14.0 * size, 1.7 * size, 2.4, 320, 0.48};
+      tree = {species, 14.0 * size, 1.7 * size, 2.4, 520, 0.55};
       break;
     case Species::kBirch:
-      tree = {species, 9.5 * size, 2.1 * size, 2.8, 260, 0.38};
+      tree = {species, 9.5 * size, 2.1 * size, 2.8, 450, 0.46};
       break;
     case Species::kSpruce:
-      tree = {species, 11.0 * size, 2.4 * size, 0.7, 260, 0.50};
+      tree = {species, 11.0 * size, 2.4 * size, 0.7, 380, 0.50};
       break;
     case Species::kFruit:
-      tree = {species, 4.2 * size, 1.8 * size, 1.1, 300, 0.30};
+      tree = {species, 4.2 * size, 1.8 * size, 1.1, 420, 0.32};
       break;
   }
   // Denser trees have smaller sprays, not fuller crowns.
@@ -147,7 +147,8 @@ void add_tree(Scenery& scenery, RandomStream& stream, const Vector3d& foot, cons
   const Vector3d fork = foot + (straight ? 0.3 : 1.0) * lean * (tree.bole_m / 2.5) + Vector3d(0.0, 0.0, tree.bole_m);
   scenery.rod(bark, foot - Vector3d(0.0, 0.0, 0.3), foot + Vector3d(0.0, 0.0, 0.25), 1.5 * radius, radius, 6);
   scenery.rod(bark, foot + Vector3d(0.0, 0.0, 0.2), fork, radius, 0.8 * radius, 6);
-  scenery.rod(bark, fork - Vector3d(0.0, 0.0, 0.05), {fork.x(), fork.y(), foot.z() + top}, 0.8 * radius, 0.2 * radius, 5);
+  scenery.rod(bark, fork - Vector3d(0.0, 0.0, 0.05), {fork.x(), fork.y(), foot.z() + top}, 0.8 * radius, 0.2 * radius,
+              5);
   if (tree.species == Species::kSpruce) return add_spruce_crown(scenery, stream, foot, tree);
   add_broad_crown(scenery, stream, foot + Vector3d(fork.x() - foot.x(), fork.y() - foot.y(), 0.0), tree, bark, radius);
 }
@@ -194,7 +195,8 @@ void add_hedge(Scenery& scenery, RandomStream& stream, const Vector3d& from, con
       side = sign * half;
       up = around < height_m ? around : around - height_m - width_m;
     }
-    const Vector3d centre = from + stream.uniform() * along + (side + stream.uniform(-0.15, 0.0) * out.dot(left)) * left +
+    const Vector3d centre = from + stream.uniform() * along +
+                            (side + stream.uniform(-0.15, 0.0) * out.dot(left)) * left +
                             Vector3d(0.0, 0.0, up - stream.uniform(0.0, 0.12) * out.z());
     const char* material = stream.uniform() < 0.6 ? "foliage_green" : "foliage_dark";
     add_spray(scenery, stream, material, centre, out, stream.uniform(0.14, 0.28));

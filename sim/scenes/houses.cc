@@ -138,8 +138,7 @@ void add_gable_roof(Scenery& scenery, RandomStream& stream, const Pose& frame, c
   for (const double side : {-1.0, 1.0}) {
     const double foot = side * (half + kOverhang_m);
     const double low = -slope * kOverhang_m;
-    std::vector<Eigen::Vector2d> profile = {
-        {foot, low}, {0.0, rise}, {0.0, rise + kThick_m}, {foot, low + kThick_m}};
+    std::vector<Eigen::Vector2d> profile = {{foot, low}, {0.0, rise}, {0.0, rise + kThick_m}, {foot, low + kThick_m}};
     if (side > 0.0) std::reverse(profile.begin(), profile.end());
     scenery.prism(house.roofing, profile, -0.5 * run - kOverhang_m, 0.5 * run + kOverhang_m, roof);
   }
@@ -167,8 +166,8 @@ void add_flat_roof(Scenery& scenery, RandomStream& stream, const Pose& frame, co
   for (int i = 0; i < boxes; ++i) {
     const double x = stream.uniform(-0.6, 0.6) * half;
     const double y = stream.uniform(0.3, 0.7) * house.depth_m;
-    scenery.block("panels_grey", {x - stream.uniform(0.6, 1.6), y - 1.0, top}, {x + 1.0, y + 1.1, top + stream.uniform(0.9, 2.2)},
-                  frame);
+    scenery.block("panels_grey", {x - stream.uniform(0.6, 1.6), y - 1.0, top},
+                  {x + 1.0, y + 1.1, top + stream.uniform(0.9, 2.2)}, frame);
   }
 }
 
@@ -244,8 +243,11 @@ void add_hall_building(Scenery& scenery, RandomStream& stream, const Pose& world
   const double half = 0.5 * hall.width_m;
   scenery.block(hall.wall, {-half, 0.0, -kInGround_m}, {half, hall.depth_m, hall.eaves_m}, world_from_hall);
   scenery.prism("roof_metal",
-                {{-half - 0.3, hall.eaves_m}, {half + 0.3, hall.eaves_m}, {half + 0.3, hall.eaves_m + 0.25},
-                 {0.0, hall.eaves_m + 0.06 * hall.width_m + 0.25}, {-half - 0.3, hall.eaves_m + 0.25}},
+                {{-half - 0.3, hall.eaves_m},
+                 {half + 0.3, hall.eaves_m},
+                 {half + 0.3, hall.eaves_m + 0.25},
+                 {0.0, hall.eaves_m + 0.06 * hall.width_m + 0.25},
+                 {-half - 0.3, hall.eaves_m + 0.25}},
                 -0.3, hall.depth_m + 0.3, world_from_hall);
   // Posts of the frame show outside, every 5 m or so.
   const int bays = std::max(2, static_cast<int>(hall.width_m / 5.0));
@@ -256,7 +258,8 @@ void add_hall_building(Scenery& scenery, RandomStream& stream, const Pose& world
     const double middle = x + 0.5 * hall.width_m / bays;
     const double kind = stream.uniform();
     if (kind < 0.35) {
-      scenery.block("door_paint", {middle - 1.7, -0.08, -0.5}, {middle + 1.7, 0.0, 0.6 * hall.eaves_m}, world_from_hall);
+      scenery.block("door_paint", {middle - 1.7, -0.08, -0.5}, {middle + 1.7, 0.0, 0.6 * hall.eaves_m},
+                    world_from_hall);
     } else if (kind < 0.75) {
       const double sill = 0.55 * hall.eaves_m;
       scenery.block("frame_white", {middle - 1.6, -0.06, sill}, {middle + 1.6, 0.0, sill + 1.2}, world_from_hall);
@@ -265,7 +268,8 @@ void add_hall_building(Scenery& scenery, RandomStream& stream, const Pose& world
                    world_from_hall * Vector3d(middle + 1.5, -0.07, sill + 1.1),
                    world_from_hall * Vector3d(middle - 1.5, -0.07, sill + 1.1));
     } else {
-      scenery.box(pick(stream, sign_materials()), {middle - 1.2, -0.15, 2.4}, {middle + 1.2, 0.0, 3.6}, world_from_hall);
+      scenery.box(pick(stream, sign_materials()), {middle - 1.2, -0.15, 2.4}, {middle + 1.2, 0.0, 3.6},
+                  world_from_hall);
     }
   }
 }

@@ -10,8 +10,8 @@
 
 namespace plumbline {
 
-/// Collects the geoms, meshes and lamps of a procedural scene. Lengths in metres; each shape is given in a local frame whose
-/// pose in the world is the last argument. Numbers are written the same way whatever the locale.
+/// Collects the geoms, meshes and lamps of a procedural scene. Lengths in metres; each shape is given in a local frame
+/// whose pose in the world is the last argument. Numbers are written the same way whatever the locale.
 class MjcfWriter {
  public:
   /// A box with its corners at `low` and `high`, low < high in every coordinate.

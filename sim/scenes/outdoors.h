@@ -15,7 +15,7 @@ namespace plumbline {
 /// What outdoor scenes are made of before they are handed over.
 struct Outdoors {
   Scenery scenery;
-  MjcfWriter geoms;         ///< of movers; holds the lamps
+  MjcfWriter geoms;  ///< of movers; holds the lamps
   std::vector<Route> routes;
   std::vector<Mover> movers;
 };

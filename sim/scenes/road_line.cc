@@ -18,7 +18,8 @@ std::vector<double> headings_along(const std::vector<Eigen::Vector3d>& samples, 
     const std::size_t before = i > 0 ? i - 1 : (closed ? count - 1 : 0);
     const std::size_t after = i + 1 < count ? i + 1 : (closed ? 0 : i);
     double heading = direction_of(samples[after] - samples[before]);
-    if (!headings.empty()) heading += 2.0 * std::numbers::pi * std::round((headings.back() - heading) / (2.0 * std::numbers::pi));
+    if (!headings.empty())
+      heading += 2.0 * std::numbers::pi * std::round((headings.back() - heading) / (2.0 * std::numbers::pi));
     headings.push_back(heading);
   }
   return headings;

@@ -17,22 +17,25 @@ constexpr double kParapet_m = 0.95;
 Section deck_section() {
   const double w = kDeckHalf_m;
   Section section;
-  section.stations = {{-w, -1.1},         {-w, kParapet_m},   {-w + 0.3, kParapet_m}, {-w + 0.3, 0.15},
-                      {-w + 1.2, 0.15},   {-w + 1.2, 0.0},    {-0.08, 0.0},           {0.08, 0.0},
-                      {w - 1.2, 0.0},     {w - 1.2, 0.15},    {w - 0.3, 0.15},        {w - 0.3, kParapet_m},
-                      {w, kParapet_m},    {w, -1.1},          {-w, -1.1}};
-  section.materials = {"concrete_pale", "concrete_pale", "concrete_grey", "paving",        "kerb",
-                       "asphalt",       "road_paint",    "asphalt",       "kerb",          "paving",
+  section.stations = {{-w, -1.1},       {-w, kParapet_m}, {-w + 0.3, kParapet_m},
+                      {-w + 0.3, 0.15}, {-w + 1.2, 0.15}, {-w + 1.2, 0.0},
+                      {-0.08, 0.0},     {0.08, 0.0},      {w - 1.2, 0.0},
+                      {w - 1.2, 0.15},  {w - 0.3, 0.15},  {w - 0.3, kParapet_m},
+                      {w, kParapet_m},  {w, -1.1},        {-w, -1.1}};
+  section.materials = {"concrete_pale", "concrete_pale", "concrete_grey", "paving",       "kerb",
+                       "asphalt",       "road_paint",    "asphalt",       "kerb",         "paving",
                        "concrete_grey", "concrete_pale", "concrete_pale", "concrete_dark"};
   return section;
 }
 
 void add_valley_bridge(Scenery& scenery, RandomStream& stream, const StreetPlan& plan, const Feature& bridge) {
   const RoadLine& line = plan.line();
-  const double from = std::max(0.0, bridge.s - bridge.half_m);
-  const double to = std::min(line.length(), bridge.s + bridge.half_m);
+  // The ground falls away from the row before the bridge on: there the deck begins.
+  const double from = bridge.s - bridge.half_m - StreetPlan::kRow_m;
+  const double to = std::min(line.length(), bridge.s + bridge.half_m + StreetPlan::kRow_m);
   if (to - from < 5.0) return;
-  add_ribbon(scenery, line, [](double) { return deck_section(); }, from, to, 2.5);
+  add_ribbon(
+      scenery, line, [](double) { return deck_section(); }, from, to, 2.5);
   const double pitch = stream.uniform(14.0, 19.0);
   for (double s = from + pitch; s < to - 6.0; s += pitch) {
     const double depth = plan.valley_depth(s);
@@ -79,10 +82,10 @@ void add_overpass(Scenery& scenery, RandomStream& stream, const StreetPlan& plan
   for (const double side : {-1.0, 1.0}) {
     const double inner = side * abutment;
     const double outer = side * (abutment + 1.2);
-    scenery.block(stream.uniform() < 0.5 ? "stone_dark" : "concrete_grey",
-                  {std::min(inner, outer), -half, -3.0}, {std::max(inner, outer), half, deck}, frame);
-    std::vector<Eigen::Vector2d> ramp = {{side * abutment, -3.0}, {side * reach, -3.0}, {side * reach, -0.3},
-                                         {side * (abutment + 1.0), deck - 0.02}};
+    scenery.block(stream.uniform() < 0.5 ? "stone_dark" : "concrete_grey", {std::min(inner, outer), -half, -3.0},
+                  {std::max(inner, outer), half, deck}, frame);
+    std::vector<Eigen::Vector2d> ramp = {
+        {side * abutment, -3.0}, {side * reach, -3.0}, {side * reach, -0.3}, {side * (abutment + 1.0), deck - 0.02}};
     if (side < 0.0) std::reverse(ramp.begin(), ramp.end());
     scenery.prism(stream.uniform() < 0.5 ? "stone_dark" : "concrete_grey", ramp, -half, half, frame);
     const double slope = (deck + 0.3) / (reach - abutment - 1.0);

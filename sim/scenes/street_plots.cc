@@ -62,7 +62,8 @@ void add_suburb_plot(Scenery& scenery, RandomStream& stream, const Side& side, d
   const double setback = stream.uniform(4.0, 8.0);
   const double askew = stream.uniform(-0.12, 0.12);
   const double shift = stream.uniform(-1.5, 1.5);
-  add_house(scenery, stream, side.stand(s + shift, side.edge(s) + setback) * upright_frame(Vector3d::Zero(), askew), house);
+  add_house(scenery, stream, side.stand(s + shift, side.edge(s) + setback) * upright_frame(Vector3d::Zero(), askew),
+            house);
   add_front_boundary(scenery, stream, side, from_s + 0.3, to_s - 0.3);
   if (stream.uniform() < 0.55) {  // garage or shed beside the house
     const double off = side.edge(s) + setback + stream.uniform(2.0, 5.0);
@@ -82,7 +83,8 @@ void add_suburb_plot(Scenery& scenery, RandomStream& stream, const Side& side, d
   }
   const int bushes = stream.integer(1, 3);
   for (int i = 0; i < bushes; ++i) {
-    const Vector3d foot = side.ground(stream.uniform(from_s + 1.0, to_s - 1.0), side.edge(s) + stream.uniform(1.8, setback));
+    const Vector3d foot =
+        side.ground(stream.uniform(from_s + 1.0, to_s - 1.0), side.edge(s) + stream.uniform(1.8, setback));
     add_bush(scenery, stream, foot, stream.uniform(0.5, 0.9), stream.uniform(0.7, 1.5), 30);
   }
 }

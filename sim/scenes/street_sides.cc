@@ -29,7 +29,8 @@ void add_lamps(Outdoors& outdoors, const StreetPlan& plan, std::uint64_t seed) {
     sign = -sign;
     if ((rural && stream.uniform() < 0.6) || plan.is_kept_free(s, s, 1.0)) continue;
     const double off = plan.road_half(s) + 0.45;
-    const Vector3d lamp = add_street_lamp(outdoors.scenery, stand_beside(plan, s, sign, off), height, rural ? 0.6 : 1.6);
+    const Vector3d lamp =
+        add_street_lamp(outdoors.scenery, stand_beside(plan, s, sign, off), height, rural ? 0.6 : 1.6);
     outdoors.geoms.lamp({lamp, intensity, 28.0});
   }
 }
@@ -116,7 +117,8 @@ void add_wood(Scenery& scenery, const StreetPlan& plan, double density, double s
     const bool bridged = plan.is_kept_free(s, s, 3.0);
     if (plan.stretch_at(s).district != District::kWood || bridged) continue;
     RandomStream tree_stream(own, "tree");
-    const auto species = tree_stream.uniform() < 0.45 ? Species::kSpruce : static_cast<Species>(tree_stream.integer(0, 2));
+    const auto species =
+        tree_stream.uniform() < 0.45 ? Species::kSpruce : static_cast<Species>(tree_stream.integer(0, 2));
     add_tree(scenery, tree_stream, plan.ground(s, sign * off), draw_tree(tree_stream, species, 0.8 * density));
   }
 }
@@ -156,7 +158,8 @@ void add_parked_cars(Scenery& scenery, const StreetPlan& plan, double parking_sh
       Pose frame = plan.stand(s, sign * across, yaw);
       // Parked cars stand as steep as the road.
       const double grade = (plan.line().at(s + 1.0).z() - plan.line().at(s - 1.0).z()) / 2.0;
-      frame.rotation = frame.rotation * Eigen::AngleAxisd((sign > 0.0 ? 1.0 : -1.0) * std::atan(grade), Vector3d::UnitY());
+      frame.rotation =
+          frame.rotation * Eigen::AngleAxisd((sign > 0.0 ? 1.0 : -1.0) * std::atan(grade), Vector3d::UnitY());
       add_parked_car(scenery, car, frame);
     }
   }
