@@ -26,6 +26,7 @@ constexpr double kGateHalf_m = 4.0;
 constexpr double kGate_m = 4.4;
 constexpr double kSecondShed_m = 100.0;  // x where the second shed begins
 constexpr double kTreeLine_m = 46.0;     // y between its two rows
+constexpr double kGap_m = 588.0;         // x of a gap in the right row, to fly in by
 
 Ground site_ground(double tree_line_m, std::uint64_t seed) {
   Ground ground;
@@ -96,6 +97,7 @@ void add_tree_line(Scenery& scenery, const Ground& ground, double length_m, doub
   for (const double row : {-4.5, 4.5}) {
     RandomStream stream(seed, row > 0.0 ? "shed site/trees/left" : "shed site/trees/right");
     for (double x = 40.0 + stream.uniform(0.0, 6.0); x < 40.0 + length_m; x += stream.uniform(6.0, 12.0)) {
+      if (row < 0.0 && std::abs(x - kGap_m) < 18.0) continue;
       const auto species = stream.uniform() < 0.75 ? Species::kLinden : Species::kBirch;
       Tree tree = draw_tree(stream, species, density);
       tree.bole_m = stream.uniform(3.8, 4.4);  // crowns meet above a flight at 2 m
@@ -121,8 +123,8 @@ void add_yard(Outdoors& outdoors, const Ground& ground, double length_m, std::ui
   RandomStream stream(seed, "shed site/yard");
   const auto on_ground = [&](double x, double y) { return Vector3d(x, y, height_on(ground, x, y)); };
   for (int i = 0; i < 26; ++i) {  // stores beside the way between the sheds
-    const double x = stream.uniform(-35.0, 160.0);
-    const double y = (stream.uniform() < 0.5 ? -1.0 : 1.0) * stream.uniform(9.5, 12.5);
+    const double x = stream.uniform(-15.0, 145.0);
+    const double y = (stream.uniform() < 0.5 ? -1.0 : 1.0) * stream.uniform(8.8, 11.5);
     const double size = stream.uniform(0.3, 0.8);
     outdoors.scenery.block(pick(stream, crate_materials()), {-size, -size, -0.3}, {size, size, 2.0 * size},
                            upright_frame(on_ground(x, y), stream.uniform(0.0, 1.5)));
@@ -171,8 +173,8 @@ void add_routes(Outdoors& outdoors, const Ground& ground) {
                                   {far + 20.0, 20.0, 0.0},
                                   {-24.0, 20.0, 0.0},
                                   {-24.0, -22.0, 0.0},
-                                  {93.8, -22.0, 0.0},
-                                  {93.8, -14.0, 0.0},
+                                  {100.0, -22.0, 0.0},
+                                  {100.0, -14.0, 0.0},
                                   {-20.0, -14.0, 0.0}},
                                  true));
   constexpr double kLow_m = 2.0;
@@ -182,23 +184,23 @@ void add_routes(Outdoors& outdoors, const Ground& ground) {
                                   {50.0, 0.0, kLow_m},
                                   {70.0, 0.0, 3.0},
                                   {90.0, 0.0, kLow_m},
-                                  {far + 14.0, 0.0, kLow_m},
-                                  {far + 26.0, 14.0, 5.0},
-                                  {far + 14.0, 26.0, 8.0},
+                                  {far + 18.2, 0.0, kLow_m},
+                                  {far + 30.2, 14.0, 5.0},
+                                  {far + 18.2, 26.0, 8.0},
                                   {-10.0, 26.0, 8.0},
                                   {-22.0, 12.0, 4.0},
                                   {-14.0, 0.0, kLow_m},
                                   {13.5, 0.0, kLow_m},
                                   {13.5, 0.0, 1.2}},
                                  false));
-  constexpr double kTurn_m = 568.0;
+  constexpr double kTurn_m = kGap_m - 18.0;
   routes.push_back(route_through("tree_mission", ground,
                                  {{30.0, 30.0, 1.2},
                                   {40.0, 30.0, 20.0},
                                   {kTurn_m, 30.0, 20.0},
                                   {kTurn_m + 18.0, 34.0, 14.0},
-                                  {kTurn_m + 20.0, kTreeLine_m - 16.0 + 16.0, 2.0},
-                                  {60.0, kTreeLine_m, 2.0}},
+                                  {kTurn_m + 20.0, kTreeLine_m, kLow_m},
+                                  {60.0, kTreeLine_m, kLow_m}},
                                  false));
   routes.push_back(route_through(
       "drive", ground, {{-10.0, 34.0, 0.0}, {707.5, 34.0, 0.0}, {707.5, 20.0, 0.0}, {-10.0, 20.0, 0.0}}, true));
