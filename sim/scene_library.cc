@@ -5,7 +5,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "sim/scenes/bridge.h"
 #include "sim/scenes/building.h"
+#include "sim/scenes/campus.h"
 #include "sim/scenes/conference_room.h"
 #include "sim/scenes/corridor.h"
 #include "sim/scenes/dark_room.h"
@@ -13,11 +15,17 @@
 #include "sim/scenes/garage.h"
 #include "sim/scenes/ground_and_wall.h"
 #include "sim/scenes/hall.h"
+#include "sim/scenes/highway.h"
+#include "sim/scenes/lawn.h"
 #include "sim/scenes/lobby.h"
+#include "sim/scenes/orchard.h"
+#include "sim/scenes/shed_site.h"
 #include "sim/scenes/sphere.h"
 #include "sim/scenes/street.h"
 #include "sim/scenes/striped_walls.h"
+#include "sim/scenes/trail.h"
 #include "sim/scenes/tunnel.h"
+#include "sim/scenes/vegetated_road.h"
 
 namespace plumbline {
 namespace {
@@ -63,10 +71,11 @@ SceneValues complete_values(const SceneInfo& scene, const SceneValues& overrides
 
 const std::vector<SceneInfo>& scene_library() {
   static const std::vector<SceneInfo> scenes = {
-      garage_scene(),        corridor_scene(), tunnel_scene(),          hall_scene(),
-      lobby_scene(),         building_scene(), conference_room_scene(), dark_room_scene(),
-      striped_walls_scene(), sphere_scene(),   flat_scene(),            ground_and_wall_scene(),
-      street_scene()};
+      garage_scene(),   corridor_scene(),        tunnel_scene(),         hall_scene(),          lobby_scene(),
+      building_scene(), conference_room_scene(), dark_room_scene(),      striped_walls_scene(), sphere_scene(),
+      flat_scene(),     ground_and_wall_scene(), street_scene(),         campus_scene(),        highway_scene(),
+      bridge_scene(),   orchard_scene(),         vegetated_road_scene(), trail_scene(),         lawn_scene(),
+      shed_site_scene()};
   return scenes;
 }
 

@@ -117,19 +117,19 @@ Tree draw_tree(RandomStream& stream, Species species, double density) {
   const double size = stream.uniform(0.75, 1.3);
   switch (species) {
     case Species::kLinden:
-      tree = {species, 8.5 * size, 2.9 * size, 2.6, 320, 0.50};
+      tree = {species, 8.5 * size, 2.9 * size, 2.6, 520, 0.58};
       break;
     case Species::kPoplar:
-      tree = {species, 14.0 * size, 1.7 * size, 2.4, 320, 0.48};
+      tree = {species, 14.0 * size, 1.7 * size, 2.4, 520, 0.55};
       break;
     case Species::kBirch:
-      tree = {species, 9.5 * size, 2.1 * size, 2.8, 260, 0.38};
+      tree = {species, 9.5 * size, 2.1 * size, 2.8, 450, 0.46};
       break;
     case Species::kSpruce:
-      tree = {species, 11.0 * size, 2.4 * size, 0.7, 260, 0.50};
+      tree = {species, 11.0 * size, 2.4 * size, 0.7, 380, 0.50};
       break;
     case Species::kFruit:
-      tree = {species, 4.2 * size, 1.8 * size, 1.1, 300, 0.30};
+      tree = {species, 4.2 * size, 1.8 * size, 1.1, 420, 0.32};
       break;
   }
   // Denser trees have smaller sprays, not fuller crowns.

@@ -21,7 +21,7 @@ struct Tree {
   double spray_m = 0.45;  ///< typical size of a spray
 };
 
-/// A tree of a species with measures as grown along streets; more sprays for a larger `density` (1: some 300).
+/// A tree of a species with measures as grown along streets; more sprays for a larger `density` (1: some 450).
 Tree draw_tree(RandomStream& stream, Species species, double density);
 
 void add_tree(Scenery& scenery, RandomStream& stream, const Eigen::Vector3d& foot, const Tree& tree);

@@ -8,6 +8,17 @@ namespace plumbline {
 
 using Eigen::Vector3d;
 
+namespace {
+
+void append(SceneMesh& mesh, const SceneMesh& other) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  const Eigen::Vector3f shift = (other.origin - mesh.origin).cast<float>();
+  for (const Eigen::Vector3f& vertex : other.vertices) mesh.vertices.push_back(vertex + shift);
+  for (const auto& t : other.triangles) mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+}
+
+}  // namespace
+
 SceneMesh& Scenery::batch(const std::string& material, const Vector3d& place) {
   const auto id = material_ids_.try_emplace(material, static_cast<int>(material_ids_.size())).first->second;
   const auto column = static_cast<int>(std::floor(place.x() / tile_m_));
@@ -121,8 +132,24 @@ void Scenery::prism(const std::string& material, const std::vector<Eigen::Vector
 }
 
 std::vector<SceneMesh> Scenery::take_meshes() {
+  constexpr std::size_t kRare = 600;  // triangles on a group of tiles
+  std::map<Key, std::vector<SceneMesh*>> groups;
+  for (auto& [key, mesh] : batches_) {
+    const auto& [material, column, row] = key;
+    groups[{material, column >> 2, row >> 2}].push_back(&mesh);
+  }
   std::vector<SceneMesh> meshes;
-  for (auto& [key, mesh] : batches_) meshes.push_back(std::move(mesh));
+  for (auto& [key, group] : groups) {
+    std::size_t triangles = 0;
+    for (const SceneMesh* mesh : group) triangles += mesh->triangles.size();
+    for (SceneMesh* mesh : group) {
+      if (mesh == group.front() || triangles > kRare) {
+        meshes.push_back(std::move(*mesh));
+      } else {
+        append(meshes.back(), *mesh);
+      }
+    }
+  }
   batches_.clear();
   material_ids_.clear();
   triangle_count_ = 0;

@@ -44,7 +44,8 @@ class Scenery {
 
   std::size_t triangle_count() const { return triangle_count_; }
 
-  /// Hands over everything collected, ordered by material and tile.
+  /// Hands over everything collected, ordered by material and tile. Where a material is rare, four times four tiles
+  /// share a mesh.
   std::vector<SceneMesh> take_meshes();
 
  private:

@@ -12,7 +12,6 @@ namespace plumbline {
 namespace {
 
 constexpr double kRouteInset_m = 4.0;  // of routes from the street's ends
-constexpr double kRow_m = 2.5;
 
 /// Cars in the left lane, all at one speed, so that none catches up.
 void add_traffic(Outdoors& outdoors, const Route& lane, double length_m, double cars_per_km, std::uint64_t seed) {
@@ -36,7 +35,7 @@ SceneDescription build_street(const SceneValues& values, std::uint64_t world_see
   Outdoors outdoors;
   Scenery& scenery = outdoors.scenery;
   add_ribbon(
-      scenery, plan.line(), [&](double s) { return plan.section(s); }, 0.0, length, kRow_m);
+      scenery, plan.line(), [&](double s) { return plan.section(s); }, 0.0, length, StreetPlan::kRow_m);
   add_far_land(scenery, plan.line(), StreetPlan::kHalfWidth_m, world_seed, bridged);
   add_plots(scenery, plan, world_seed);
   add_parked_cars(scenery, plan, values.at("parked_cars"), world_seed);
@@ -61,7 +60,7 @@ SceneInfo street_scene() {
                          {"rural_share", 0.4, 0, 1, "share of stretches through fields and woods"},
                          {"parked_cars", 0.6, 0, 1, "share of the places along kerbs that are taken"},
                          {"moving_cars_per_km", 5, 0, 20, "in the lane opposite to the tour"},
-                         {"leaf_density", 1, 0.3, 4, "sprays of leaves on every tree; 1: some 300"},
+                         {"leaf_density", 1, 0.3, 4, "sprays of leaves on every tree; 1: some 450"},
                          night_parameter()},
           .build = build_street};
 }

@@ -30,8 +30,9 @@ Section deck_section() {
 
 void add_valley_bridge(Scenery& scenery, RandomStream& stream, const StreetPlan& plan, const Feature& bridge) {
   const RoadLine& line = plan.line();
-  const double from = std::max(0.0, bridge.s - bridge.half_m);
-  const double to = std::min(line.length(), bridge.s + bridge.half_m);
+  // The ground falls away from the row before the bridge on: there the deck begins.
+  const double from = bridge.s - bridge.half_m - StreetPlan::kRow_m;
+  const double to = std::min(line.length(), bridge.s + bridge.half_m + StreetPlan::kRow_m);
   if (to - from < 5.0) return;
   add_ribbon(
       scenery, line, [](double) { return deck_section(); }, from, to, 2.5);

@@ -53,6 +53,8 @@ std::vector<Stretch> draw_stretches(double length_m, double rural_share, std::ui
   return stretches;
 }
 
+double on_row(double s) { return std::round(s / StreetPlan::kRow_m) * StreetPlan::kRow_m; }
+
 std::vector<Feature> draw_features(double length_m, std::uint64_t seed) {
   RandomStream stream(seed, "street/features");
   std::vector<Feature> features;
@@ -67,7 +69,10 @@ std::vector<Feature> draw_features(double length_m, std::uint64_t seed) {
       feature.kind = valley ? Feature::Kind::kValleyBridge : Feature::Kind::kOverpass;
       feature.half_m = valley ? stream.uniform(45.0, 70.0) : 14.0;
       feature.depth_m = valley ? stream.uniform(9.0, 14.0) : 0.0;
-      feature.s += valley ? feature.half_m : 0.0;
+      if (valley) {  // a bridge begins and ends on a row of the ground
+        feature.half_m = on_row(feature.half_m);
+        feature.s = on_row(s + feature.half_m);
+      }
       next_bridge = s + stream.uniform(450.0, 900.0);
     } else {
       feature.kind = Feature::Kind::kCrossing;

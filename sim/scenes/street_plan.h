@@ -33,6 +33,8 @@ class StreetPlan {
   static constexpr double kLane_m = 3.5;  ///< width of each of two lanes
   static constexpr double kHalfWidth_m = 55.0;
 
+  static constexpr double kRow_m = 2.5;  ///< between sections as laid
+
   /// @param rural_share  of the districts
   StreetPlan(double length_m, double rural_share, std::uint64_t seed);
 
