@@ -41,7 +41,7 @@ inline const Eigen::Vector3d kDefaultCameraInPack{0.1, 0.0, 0.0};
 /// The pack of sensors on the vehicle. The pack's origin is the body, where the IMU sits:
 /// world_from_body = world_from_vehicle * vehicle_from_pack, point_in_body = pack_from_lidar * point_in_lidar.
 struct RigConfig {
-  int decimation = 1;  ///< 2 drops every other message of all sensors
+  int decimation = 1;    ///< 2 drops every other message of all sensors
   bool own_body = true;  ///< sensors see the vehicle that carries them
   Pose vehicle_from_pack;
   Pose pack_from_lidar;

@@ -92,7 +92,8 @@ StepMotion RunningGait::at(double time_s, double effort) {
   while (time_s >= step_.end_s()) step_ = next_after(step_);
   // Whoever runs at all leaves the ground.
   const double share = smooth_step(effort / 0.6);
-  const double side = M_PI * (number_ + (time_s - step_.start_s) / (step_.end_s() - step_.start_s));
+  // From side to side once a step, still at each footfall: steps of different lengths join smoothly.
+  const double side = M_PI * (number_ + smooth_step((time_s - step_.start_s) / (step_.end_s() - step_.start_s)));
   StepMotion motion;
   motion.offset = {0.0, config_.gait_sway_m * std::sin(side),
                    height(step_, time_s) + config_.gait_impact_mps2 * strike(time_s - step_.start_s)};
