@@ -9,15 +9,15 @@ namespace {
 constexpr double kDegree = M_PI / 180.0;
 constexpr double kGravity = 9.81;
 
-/// What comes up from a heel that struck `since_s` ago, of peak acceleration 1 [m/s^2]: a damped swing of the trunk,
-/// down first. Its onset is soft enough to be twice differentiable.
+/// Height from a heel that struck `since_s` ago, of peak acceleration 1 [m/s^2]: a damped swing of the trunk,
+/// pushed up first. Its onset is soft enough to be twice differentiable.
 double strike(double since_s) {
   constexpr double kSwing_hz = 14.0;
   constexpr double kDamping_s = 0.04;
   constexpr double kOnset_s = 0.006;
   constexpr double kRate = 2.0 * M_PI * kSwing_hz;
   const double onset = 1.0 - std::exp(-since_s / kOnset_s);
-  return -std::sin(kRate * since_s) * std::exp(-since_s / kDamping_s) * onset * onset / (kRate * kRate);
+  return std::sin(kRate * since_s) * std::exp(-since_s / kDamping_s) * onset * onset / (kRate * kRate);
 }
 
 double smooth_step(double x) {
