@@ -64,7 +64,7 @@ struct SensorTiming {
 /// otherwise: world_from_body = world_from_vehicle * vehicle_from_pack, point_in_body = pack_from_lidar *
 /// point_in_lidar.
 struct RigConfig {
-  int decimation = 1;  ///< 2 drops every other message of all sensors
+  int decimation = 1;    ///< 2 drops every other message of all sensors
   bool own_body = true;  ///< sensors see the vehicle that carries them
   Pose vehicle_from_pack;
   Pose pack_from_lidar;

@@ -9,15 +9,15 @@ namespace {
 constexpr double kDegree = M_PI / 180.0;
 constexpr double kGravity = 9.81;
 
-/// What comes up from a heel that struck `since_s` ago, of peak acceleration 1 [m/s^2]: a damped swing of the trunk,
-/// down first. Its onset is soft enough to be twice differentiable.
+/// Height from a heel that struck `since_s` ago, of peak acceleration 1 [m/s^2]: a damped swing of the trunk,
+/// pushed up first. Its onset is soft enough to be twice differentiable.
 double strike(double since_s) {
   constexpr double kSwing_hz = 14.0;
   constexpr double kDamping_s = 0.04;
   constexpr double kOnset_s = 0.006;
   constexpr double kRate = 2.0 * M_PI * kSwing_hz;
   const double onset = 1.0 - std::exp(-since_s / kOnset_s);
-  return -std::sin(kRate * since_s) * std::exp(-since_s / kDamping_s) * onset * onset / (kRate * kRate);
+  return std::sin(kRate * since_s) * std::exp(-since_s / kDamping_s) * onset * onset / (kRate * kRate);
 }
 
 double smooth_step(double x) {
@@ -92,7 +92,8 @@ StepMotion RunningGait::at(double time_s, double effort) {
   while (time_s >= step_.end_s()) step_ = next_after(step_);
   // Whoever runs at all leaves the ground.
   const double share = smooth_step(effort / 0.6);
-  const double side = M_PI * (number_ + (time_s - step_.start_s) / (step_.end_s() - step_.start_s));
+  // From side to side once a step, still at each footfall: steps of different lengths join smoothly.
+  const double side = M_PI * (number_ + smooth_step((time_s - step_.start_s) / (step_.end_s() - step_.start_s)));
   StepMotion motion;
   motion.offset = {0.0, config_.gait_sway_m * std::sin(side),
                    height(step_, time_s) + config_.gait_impact_mps2 * strike(time_s - step_.start_s)};
