@@ -115,7 +115,7 @@ void colour_map(const Scenario& scenario, const Surroundings& surroundings, cons
                 RunRecord& record) {
   if (!scenario.rig.colour_camera || record.map.empty() || record.estimate.empty()) return;
   const MountedCamera& mounted = *scenario.rig.colour_camera;
-  RigDriver driver(surroundings.world, world_from_body);
+  RigDriver driver(world_from_body);
   Camera camera(mounted.model, mounted.effects, scenario.seed, "colour camera noise");
   Renderer renderer(surroundings.world, camera.view(),
                     {.threads = 0, .depth = false, .colour = true, .own_body = surroundings.own_body});

@@ -6,7 +6,7 @@ ScanStream::ScanStream(const Scenario& scenario, const Surroundings& surrounding
     : scenario_(scenario),
       surroundings_(surroundings),
       end_ns_(world_from_body.end_ns()),
-      driver_(surroundings.world, world_from_body),
+      driver_(world_from_body),
       lidar_(scenario.rig.lidar, scenario.rig.pack_from_lidar, scenario.seed, scenario.rig.lidar_effects,
              scenario.rig.lidar_returns),
       parts_(messages_per_sweep(scenario.rig.lidar)) {}

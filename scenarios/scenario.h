@@ -26,7 +26,15 @@ struct WorldConfig {
   std::filesystem::path mjcf;    ///< a user's MJCF
   SceneValues parameters;
   std::optional<std::uint64_t> seed;  ///< otherwise the scenario's
-  double light_lux = 200.0;
+  double usual_lux = kLampLightLux;   ///< the scene's level under lamps
+  /// Otherwise usual_lux under lamps, and in sunlight and at night what the scene says.
+  std::optional<double> light_lux;
+  std::optional<double> sun_lux;
+  bool night = false;
+  double rig_lamp_cd = 0.0;
+  int glare_patches = 0;
+  double contrast = 1.0;  ///< factor on that of every material
+  Atmosphere atmosphere;
   std::vector<LightStep> light_schedule;  ///< in time order
 };
 

@@ -9,6 +9,7 @@
 #include "scenarios/map_colouring.h"
 #include "scenarios/recorder.h"
 #include "scenarios/sensor_stream.h"
+#include "sim/glare.h"
 #include "sim/rig_driver.h"
 #include "sim/surroundings.h"
 #include "sim/vehicles/vehicle.h"
@@ -62,6 +63,19 @@ class TruthLog {
   std::int64_t logged_ = 0;
 };
 
+/// Glare comes last: it is as strong at every level of light.
+void set_conditions(World& world, const WorldConfig& config) {
+  if (config.sun_lux) world.set_sun(*config.sun_lux);
+  if (config.night) world.make_night();
+  const bool lamplight = world.sun().lux == 0.0 && !config.night;
+  if (config.light_lux || lamplight) world.set_light_level(config.light_lux.value_or(config.usual_lux));
+  world.scale_contrast(config.contrast);
+  world.atmosphere = config.atmosphere;
+  world.rig_lamp_cd = config.rig_lamp_cd;
+  if (config.glare_patches == 0) return;
+  for (const Lamp& lamp : glare_lamps(world, RayScene(world), config.glare_patches)) world.add_lamp(lamp);
+}
+
 void deliver(const SensorMessage& message, Recorder& recorder) {
   recorder.add_sensors_wall(message.wall_s);
   std::visit(
@@ -105,7 +119,7 @@ World make_world(const Scenario& scenario) {
     const std::uint64_t seed = config.seed.value_or(scenario.seed);
     World world = config.scene.empty() ? World::from_mjcf_file(config.mjcf, seed)
                                        : World::from_scene(build_scene(config.scene, config.parameters, seed), seed);
-    world.set_light_level(config.light_lux);
+    set_conditions(world, config);
     return world;
   });
 }

@@ -17,8 +17,8 @@ Eigen::Vector2d project(const RenderView& view, const Eigen::Vector3d& point) {
 Pose world_at_end_from_world_at_begin(const World& world, int geom, const CameraSweep& sweep) {
   const int mover = geom < 0 ? -1 : world.mover_of(geom);
   if (mover < 0) return {};
-  const Mover& moving = world.movers()[static_cast<std::size_t>(mover)];
-  return pose_of(moving, sweep.end_s) * pose_of(moving, sweep.begin_s).inverse();
+  const auto moving = static_cast<std::size_t>(mover);
+  return world.pose_of_mover(moving, sweep.end_s) * world.pose_of_mover(moving, sweep.begin_s).inverse();
 }
 
 }  // namespace
@@ -26,7 +26,7 @@ Pose world_at_end_from_world_at_begin(const World& world, int geom, const Camera
 double image_motion_px(const Surroundings& surroundings, const RenderView& view, const CameraSweep& sweep) {
   const Pose& begin = sweep.world_from_camera_at_begin;
   const Pose camera_from_world_at_end = sweep.world_from_camera_at_end.inverse();
-  const RayWindow window = surroundings.rays.window(begin.translation, kReach_m);
+  const RayWindow window = surroundings.rays.window(begin.translation, kReach_m, sweep.begin_s);
   double greatest_px = 0.0;
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns; ++column) {

@@ -26,14 +26,11 @@ Trajectory mounted_on(const Trajectory& world_from_vehicle, const Pose& vehicle_
   return Trajectory(poses);
 }
 
-void RigDriver::DataDeleter::operator()(mjData_* data) const { mj_deleteData(data); }
-
-RigDriver::RigDriver(const World& world, const Trajectory& world_from_body)
-    : model_(world.model()),
+RigDriver::RigDriver(const Trajectory& world_from_body)
+    : model_(compile_mjcf("<mujoco><worldbody/></mujoco>")),
+      data_(forward_initial_state(*model_)),
       trajectory_(world_from_body),
-      data_(mj_makeData(&world.model())),
-      rig_body_(world.rig_body()) {
-  if (!data_) throw std::runtime_error("MuJoCo could not allocate the state of the world");
+      rig_body_(mj_name2id(model_.get(), mjOBJ_BODY, kRigBodyName)) {
   step_to(0);
 }
 
@@ -45,12 +42,12 @@ void RigDriver::advance_to(std::int64_t stamp_ns) {
 
 void RigDriver::step_to(std::int64_t stamp_ns) {
   const Pose target = trajectory_.pose(stamp_ns);
-  const int mocap = model_.body_mocapid[rig_body_];
+  const int mocap = model_->body_mocapid[rig_body_];
   Eigen::Map<Eigen::Vector3d>(data_->mocap_pos + 3 * mocap) = target.translation;
   const Eigen::Quaterniond& q = target.rotation;
   Eigen::Map<Eigen::Vector4d>(data_->mocap_quat + 4 * mocap) = Eigen::Vector4d(q.w(), q.x(), q.y(), q.z());
   data_->time = 1e-9 * static_cast<double>(stamp_ns);
-  mj_kinematics(&model_, data_.get());
+  mj_kinematics(model_.get(), data_.get());
 
   const mjtNum* position = data_->xpos + 3 * rig_body_;
   const mjtNum* quaternion = data_->xquat + 4 * rig_body_;

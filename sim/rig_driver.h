@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "estimator/geometry/interpolation.h"
+#include "sim/mjcf_model.h"
 #include "sim/trajectory.h"
-#include "sim/world.h"
 
 namespace plumbline {
 
@@ -14,12 +14,13 @@ namespace plumbline {
 /// that every sensor on it sees one and the same motion.
 Trajectory mounted_on(const Trajectory& world_from_vehicle, const Pose& vehicle_from_pack);
 
-/// Carries the world's mocap rig body along a trajectory, in small steps of MuJoCo's kinematics, and keeps where it
-/// has been. The world itself is not touched: every driver moves its own copy of the state.
+/// Carries the mocap rig body along a trajectory, in small steps of MuJoCo's kinematics, and keeps where it has been.
+/// The rig is a child of the world that touches nothing, so that a model of it alone moves as it would among all the
+/// geoms, whose number would otherwise be paid for in every step.
 class RigDriver {
  public:
-  /// Both must outlive the driver. The trajectory must start at stamp 0.
-  RigDriver(const World& world, const Trajectory& world_from_body);
+  /// The trajectory must outlive the driver and start at stamp 0.
+  explicit RigDriver(const Trajectory& world_from_body);
   RigDriver(const RigDriver&) = delete;
   RigDriver& operator=(const RigDriver&) = delete;
   ~RigDriver();
@@ -33,12 +34,9 @@ class RigDriver {
  private:
   void step_to(std::int64_t stamp_ns);
 
-  struct DataDeleter {
-    void operator()(mjData_* data) const;
-  };
-  const mjModel_& model_;
+  MjModelPtr model_;
+  MjDataPtr data_;
   const Trajectory& trajectory_;
-  std::unique_ptr<mjData_, DataDeleter> data_;
   int rig_body_ = -1;
   PoseTrack track_;
 };

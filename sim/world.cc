@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -17,6 +18,7 @@ namespace {
 constexpr double kUserLampIntensityCd = 400.0;
 constexpr double kUserLampReachM = 15.0;
 constexpr double kUserDirectionalLux = 300.0;
+constexpr double kMoonlight_lux = 0.1;
 
 Eigen::Vector3d vector_at(const mjtNum* values, int index) {
   return Eigen::Map<const Eigen::Matrix<mjtNum, 3, 1>>(values + 3 * index).cast<double>();
@@ -143,6 +145,13 @@ std::vector<Eigen::Vector3d> places_below(const std::vector<Lamp>& lamps, const 
   return places;
 }
 
+void check_lux(const char* what, double lux) {
+  if (!std::isfinite(lux) || lux < 0.0) {
+    throw std::invalid_argument(std::string(what) + ' ' + std::to_string(lux) +
+                                " lux: must be finite and not negative");
+  }
+}
+
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -220,8 +229,14 @@ Pose World::initial_pose_of_mover(std::size_t mover) const {
 Pose World::pose_of_mover(std::size_t mover, double time_s) const { return mover_paths_.at(mover).at(time_s); }
 
 void World::set_light_level(double lux) {
-  if (!std::isfinite(lux) || lux < 0.0) {
-    throw std::invalid_argument("light level " + std::to_string(lux) + " lux: must be finite and not negative");
+  check_lux("light level", lux);
+  const double daylight = ambient_lux_ + sun_.lux * std::max(0.0, sun_.direction_to_sun.z());
+  if (sun_.lux > 0.0 && daylight > 0.0) {
+    const double factor = lux / daylight;
+    ambient_lux_ *= factor;
+    sun_.lux *= factor;
+    sky_luminance_ *= factor;
+    return;
   }
   std::vector<double> illuminances;
   for (const Eigen::Vector3d& place : places_below(lamps_, *model_, *data_)) {
@@ -235,6 +250,22 @@ void World::set_light_level(double lux) {
   const double factor = lux / level;
   ambient_lux_ *= factor;
   for (Lamp& lamp : lamps_) lamp.intensity_cd *= factor;
+}
+
+void World::set_sun(double lux) {
+  check_lux("sun", lux);
+  sun_.lux = lux;
+}
+
+void World::make_night() {
+  sun_.lux = 0.0;
+  ambient_lux_ = std::min(ambient_lux_, kMoonlight_lux);
+  // A sky that lights a horizontal plate with E has the luminance E / pi.
+  sky_luminance_ = std::min(sky_luminance_, kMoonlight_lux / std::numbers::pi);
+}
+
+void World::scale_contrast(double factor) {
+  for (Material& material : materials_) material.contrast *= static_cast<float>(factor);
 }
 
 }  // namespace plumbline

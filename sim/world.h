@@ -147,10 +147,18 @@ class World {
   double rig_lamp_cd = 0.0;  ///< luminous intensity of a lamp on the rig, at the camera, shining ahead
   std::uint64_t seed() const { return seed_; }
 
-  /// Scales lamps and ambient light so that a horizontal plate at the median lit place gets `lux`. The lit places are
-  /// the surfaces below the lamps and 2 m around them.
+  /// Scales the light so that a horizontal plate at the median lit place gets `lux`. By day, with a sun in the sky, the
+  /// lit places are those under it, and sun, ambient light and sky are scaled. Otherwise they are the surfaces below
+  /// the lamps and 2 m around them, and lamps and ambient light are.
   /// @throws std::invalid_argument unless lux is finite and not negative.
   void set_light_level(double lux);
+  /// On a surface that faces the sun; 0 switches it off. @throws std::invalid_argument as set_light_level.
+  void set_sun(double lux);
+  /// No sun, and a sky as under a full moon; lamps stay.
+  void make_night();
+  /// Multiplies every material's contrast: 0 leaves nothing to track on surfaces.
+  void scale_contrast(double factor);
+  void add_lamp(const Lamp& lamp) { lamps_.push_back(lamp); }
 
  private:
   World();

@@ -17,7 +17,7 @@ void BM_RigDriver(benchmark::State& state, const std::string& scene) {
   MotionConfig motion;
   motion.waypoints = {{{0.0, 0.0, 1.0}, 0.0}, {{1000.0, 0.0, 1.0}, 0.0}};
   const Trajectory trajectory = make_trajectory(motion, 1);
-  RigDriver driver(world, trajectory);
+  RigDriver driver(trajectory);
   std::int64_t stamp_ns = 0;
   for (auto _ : state) {
     stamp_ns += 1'000'000'000;

@@ -36,6 +36,33 @@ class ScenarioFile : public testing::Test {
   TemporaryDirectory files_;
 };
 
+TEST_F(ScenarioFile, ConditionsOfTheWorld) {
+  const WorldConfig plain = load(kMotion).world;
+  EXPECT_FALSE(plain.light_lux || plain.sun_lux || plain.night);
+  EXPECT_EQ(plain.contrast, 1.0);
+  const WorldConfig world =
+      load(kMotion, {"world.fog.visibility_m=50", "world.dust.visibility_m=20", "world.rain.mm_per_h=10",
+                     "world.light.sun_lux=0", "world.light.night=true", "world.light.rig_lamp_cd=300",
+                     "world.light.glare_patches=4", "world.contrast=0"})
+          .world;
+  EXPECT_EQ(world.atmosphere.fog_visibility_m, 50.0);
+  EXPECT_EQ(world.atmosphere.dust_visibility_m, 20.0);
+  EXPECT_EQ(world.atmosphere.rain_mm_per_h, 10.0);
+  EXPECT_EQ(world.sun_lux, 0.0);
+  EXPECT_TRUE(world.night);
+  EXPECT_EQ(world.rig_lamp_cd, 300.0);
+  EXPECT_EQ(world.glare_patches, 4);
+  EXPECT_EQ(world.contrast, 0.0);
+}
+
+TEST_F(ScenarioFile, ConditionsOutOfRangeAreRefused) {
+  for (const char* condition :
+       {"world.fog.visibility_m=0", "world.dust.visibility_m=-1", "world.rain.mm_per_h=1000", "world.light.sun_lux=-1",
+        "world.light.night=4", "world.light.rig_lamp_cd=-1", "world.light.glare_patches=1000", "world.contrast=-1"}) {
+    EXPECT_THROW(load(kMotion, {condition}), InputError) << condition;
+  }
+}
+
 TEST_F(ScenarioFile, NeedsNothingButWayPoints) {
   const Scenario scenario = load(kMotion);
   EXPECT_EQ(scenario.name, "file");

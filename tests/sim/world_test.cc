@@ -9,6 +9,10 @@
 #include <fstream>
 #include <set>
 #include <stdexcept>
+#include <vector>
+
+#include "sim/glare.h"
+#include "sim/ray_scene.h"
 
 namespace plumbline {
 namespace {
@@ -126,6 +130,63 @@ TEST(World, LightLevelScalesLampsAndAmbientAlike) {
   world.set_light_level(2.0);
   EXPECT_NEAR(world.lamps()[0].intensity_cd, bright / 100.0, 1e-9 * bright);
   EXPECT_THROW(world.set_light_level(-1.0), std::invalid_argument);
+}
+
+SceneDescription sunny_day() {
+  SceneDescription scene = box_on_floor();
+  scene.sun = {Eigen::Vector3d(0.0, 0.6, 0.8), 100'000.0};
+  scene.ambient_lux = 20'000.0;
+  scene.sky_luminance = 8'000.0;
+  return scene;
+}
+
+TEST(World, LightLevelByDayScalesSunAmbientAndSkyButNoLamp) {
+  World world = World::from_scene(sunny_day(), 1);
+  world.set_light_level(1000.0);  // a hundredth of 0.8 * 100000 + 20000 on the ground
+  EXPECT_NEAR(world.sun().lux, 1000.0, 1e-6);
+  EXPECT_NEAR(world.ambient_lux(), 200.0, 1e-6);
+  EXPECT_NEAR(world.sky_luminance(), 80.0, 1e-6);
+  EXPECT_EQ(world.lamps()[0].intensity_cd, 100.0);
+}
+
+TEST(World, NightLeavesMoonlightAndTheLamps) {
+  World world = World::from_scene(sunny_day(), 1);
+  world.make_night();
+  EXPECT_EQ(world.sun().lux, 0.0);
+  EXPECT_NEAR(world.ambient_lux(), 0.1, 1e-12);
+  EXPECT_LT(world.sky_luminance(), 0.05);
+  EXPECT_EQ(world.lamps()[0].intensity_cd, 100.0);
+}
+
+TEST(World, SunAndContrastCanBeSet) {
+  World world = World::from_scene(sunny_day(), 1);
+  world.set_sun(5.0);
+  EXPECT_EQ(world.sun().lux, 5.0);
+  EXPECT_THROW(world.set_sun(-1.0), std::invalid_argument);
+  world.scale_contrast(0.0);
+  for (const Material& material : world.materials()) EXPECT_EQ(material.contrast, 0.0F);
+}
+
+TEST(World, GlareLightsSurfacesBesideTheRouteFarBeyondDaylight) {
+  SceneDescription scene = box_on_floor();
+  EXPECT_THROW(
+      {
+        const World without_route = World::from_scene(scene, 1);
+        glare_lamps(without_route, RayScene(without_route), 1);
+      },
+      std::invalid_argument);
+  scene.mjcf.insert(scene.mjcf.find("</worldbody>"),
+                    R"(<geom type="box" size="9 1 3" pos="0 5 0"/><geom type="box" size="9 1 3" pos="0 -5 0"/>)");
+  scene.routes = {{"aisle", {{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}}, false}};
+  const World world = World::from_scene(scene, 1);
+  const RayScene rays(world);
+  const std::vector<Lamp> lamps = glare_lamps(world, rays, 5);
+  ASSERT_EQ(lamps.size(), 5U);
+  for (const Lamp& lamp : lamps) {
+    const double distance = rays.distance_to_surface(lamp.position, 10.0);
+    EXPECT_NEAR(distance, 0.5, 1e-6);
+    EXPECT_GT(lamp.intensity_cd / (distance * distance), 150'000.0);  // more than the sun at noon
+  }
 }
 
 TEST(World, LampsFadeToNothingAtTheirReach) {
