@@ -64,7 +64,7 @@ const std::vector<SceneInfo>& scene_library() {
   static const std::vector<SceneInfo> scenes = {
       garage_scene(),        corridor_scene(), tunnel_scene(),          hall_scene(),
       lobby_scene(),         building_scene(), conference_room_scene(), dark_room_scene(),
-      striped_walls_scene(), flat_scene(),     ground_and_wall_scene()};
+      striped_walls_scene(), flat_scene(),     ground_and_wall_scene(), sphere_scene()};
   return scenes;
 }
 
