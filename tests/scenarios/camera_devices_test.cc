@@ -146,8 +146,7 @@ TEST(CatalogueCameras, LidarPointsFallOnTheDepthsThatTheCameraSees) {
     const RenderView view = Lens(catalogue_camera(camera_name), effects).view();
     Renderer renderer(world, view, {.threads = 0, .depth = true});
     for (const std::string& lidar_name : catalogue_names("lidar")) {
-      Lidar lidar(catalogue_lidar(lidar_name), Pose{}, 1);
-      lidar.noise_enabled = false;
+      const Lidar lidar(catalogue_lidar(lidar_name), Pose{}, 1, LidarEffects::none());
       Agreement all;
       for (const Pose& world_from_body : places) {
         RenderMoment moment;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <set>
 #include <stdexcept>
@@ -166,7 +167,10 @@ TEST(SceneLibrary, DefaultScenesHaveAModerateNumberOfGeomsAndSeveralLooks) {
     const World world = make_world(scene.name, {}, 1);
     EXPECT_LT(world.model().ngeom, 1500) << scene.name;
     EXPECT_GE(world.materials().size(), 2U) << scene.name;
-    for (int geom = 0; geom < world.model().ngeom; ++geom) EXPECT_GE(world.model().geom_matid[geom], 0);
+    for (int geom = 0; geom < world.model().ngeom; ++geom) {
+      const Material& material = world.materials()[static_cast<std::size_t>(world.material_of(geom))];
+      EXPECT_THAT(material.name, ::testing::Not(::testing::StartsWith("rgba"))) << scene.name;
+    }
   }
 }
 
@@ -216,6 +220,14 @@ TEST(SceneRoutes, EverySceneHasRoutesThatCanBeWalkedOrFlown) {
         }
       }
     }
+  }
+}
+
+TEST(SceneLibrary, EverySceneHasASmallPicture) {
+  for (const SceneInfo& scene : scene_library()) {
+    const std::filesystem::path picture = std::filesystem::path(PLUMBLINE_PICTURE_DIR) / (scene.name + ".jpg");
+    ASSERT_TRUE(std::filesystem::exists(picture)) << picture << " is missing: tools/dev pictures " << scene.name;
+    EXPECT_LE(std::filesystem::file_size(picture), 40'000U) << picture;
   }
 }
 
