@@ -28,7 +28,7 @@ LidarCaster::LidarCaster(const Surroundings& surroundings, const OwnBody* own_bo
       start_ns_(start_ns),
       max_range_m_(max_range_m),
       place_((world_from_body.at(start_ns) * body_from_lidar).translation),
-      window_(surroundings.rays.window(place_, max_range_m)) {
+      window_(surroundings.rays.window(place_, max_range_m, 1e-9 * static_cast<double>(start_ns))) {
   if (own_body_) vehicle_from_lidar_ = own_body_->body_from_vehicle.inverse() * body_from_lidar_;
 }
 
