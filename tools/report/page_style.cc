@@ -17,6 +17,7 @@ h1{font-size:28px;line-height:1.2;margin:0;overflow-wrap:anywhere}
 h2{font-size:19px;margin:40px 0 4px}
 p.note{margin:0 0 12px;color:var(--soft);max-width:80ch}
 .badge{font-weight:600;font-size:14px;padding:2px 12px;border-radius:99px;color:#fff;background:var(--soft)}
+td .badge{font-size:12px;padding:1px 9px;white-space:nowrap}a{color:var(--c0)}
 .badge.ok{background:#1f7f63}.badge.failed{background:#a66c00}.badge.lost,.badge.error{background:#b81d3a}
 .sub{color:var(--soft)}
 .tiles{display:grid;grid-template-columns:repeat(5,minmax(0,1fr));gap:10px;margin:20px 0 0}
@@ -49,6 +50,7 @@ svg text{font-size:13px;fill:var(--soft);font-family:inherit}
 .nothing{--hue:var(--nothing)}.bar{--hue:var(--c0)}
 .line{stroke:var(--hue)}rect{fill:var(--hue)}
 .line.warn{stroke-width:2.6}.map .line{stroke-width:2}.map .truth.line{stroke-width:3.2;opacity:.75}
+.band{fill:var(--hue);opacity:.2}.dot{fill:var(--hue)}svg text.on-pale{fill:#2b1a10}svg text.on-dark{fill:#fff}
 .scale,.whisker{stroke:var(--ink);stroke-width:1.6;vector-effect:non-scaling-stroke}
 circle.start{fill:var(--card);stroke:var(--ink);stroke-width:2}circle.end{fill:var(--hue)}
 .depth-lidar{--hue:#35d0ba}.depth-triangulated{--hue:#ffa62b}.depth-none{--hue:#9fb4ff}.outlier{--hue:#ff3b5c}
