@@ -69,7 +69,8 @@ std::string line_through(const PointChart::Series& series, const ChartScale& to_
                          double offset) {
   std::string path;
   for (const auto& point : series.points) {
-    path += (path.empty() ? "M" : "L") + place(to_x(point.x) + offset, to_y(point.y.value));
+    path += path.empty() ? 'M' : 'L';
+    path += place(to_x(point.x) + offset, to_y(point.y.value));
   }
   return path.empty() ? "" : "<path class=\"line " + series.css_class + "\" d=\"" + path + "\"/>";
 }
@@ -77,10 +78,12 @@ std::string line_through(const PointChart::Series& series, const ChartScale& to_
 std::string band(const PointChart::Series& series, const ChartScale& to_x, const ChartScale& to_y) {
   std::string path;
   for (const auto& point : series.points) {
-    path += (path.empty() ? "M" : "L") + place(to_x(point.x), to_y(point.y.high));
+    path += path.empty() ? 'M' : 'L';
+    path += place(to_x(point.x), to_y(point.y.high));
   }
   for (auto point = series.points.rbegin(); point != series.points.rend(); ++point) {
-    path += "L" + place(to_x(point->x), to_y(point->y.low));
+    path += 'L';
+    path += place(to_x(point->x), to_y(point->y.low));
   }
   return path.empty() ? "" : "<path class=\"band " + series.css_class + "\" d=\"" + path + "Z\"/>";
 }

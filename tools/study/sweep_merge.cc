@@ -24,7 +24,8 @@ bool same_result(const SweepPlan& plan, const StoredRun& a, const StoredRun& b) 
 void copy_run(const fs::path& from, const fs::path& to) {
   std::error_code error;
   if (!fs::exists(from, error) || fs::exists(to, error)) return;
-  const fs::path staging = to.parent_path() / ("." + to.filename().string());
+  fs::path staging = to;
+  staging.replace_filename(std::string(".copy-").append(to.filename().string()));
   fs::remove_all(staging, error);
   fs::copy(from, staging, fs::copy_options::recursive, error);
   if (!error) fs::rename(staging, to, error);

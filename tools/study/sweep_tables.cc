@@ -22,14 +22,16 @@ Columns columns_of(const std::vector<RunRow>& rows, FigureTexts RunRow::*figures
   return columns;
 }
 
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
+/// A comma, and the text so quoted that it stays one cell.
+void append_cell(std::string& line, const std::string& text) {
+  line += ',';
+  const bool is_plain = text.find_first_of(",\"\n\r") == std::string::npos;
+  if (!is_plain) line += '"';
   for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
+    if (c == '"') line += '"';
+    line += c;
   }
-  return quoted + '"';
+  if (!is_plain) line += '"';
 }
 
 void append_cells(std::string& line, const Columns& columns, const FigureTexts& figures) {
@@ -54,15 +56,17 @@ std::string dump(const ordered_json& json) { return json.dump(-1, ' ', false, or
 std::string table_csv(const SweepPlan& plan, const std::vector<RunRow>& rows) {
   const Columns figures = columns_of(rows, &RunRow::figures);
   std::string text = "run";
-  for (const SweepAxis& axis : plan.axes) text += "," + csv_cell(axis.key);
+  for (const SweepAxis& axis : plan.axes) append_cell(text, axis.key);
   text += ",estimator,seed,scenario_digest,outcome,status,reason";
-  for (const std::string& figure : figures) text += "," + csv_cell(figure);
+  for (const std::string& figure : figures) append_cell(text, figure);
   text += '\n';
   for (const RunRow& row : rows) {
     text += row.run.key;
-    for (const AxisValue& value : row.run.values) text += "," + csv_cell(value.text);
-    text += "," + csv_cell(row.run.estimator) + "," + std::to_string(row.run.seed) + "," + row.run.scenario_digest +
-            "," + row.outcome + "," + row.status + "," + csv_cell(row.reason);
+    for (const AxisValue& value : row.run.values) append_cell(text, value.text);
+    for (const std::string& word : {row.run.estimator, std::to_string(row.run.seed), row.run.scenario_digest,
+                                    row.outcome, row.status, row.reason}) {
+      append_cell(text, word);
+    }
     append_cells(text, figures, row.figures);
     text += '\n';
   }
@@ -92,11 +96,13 @@ std::string table_jsonl(const SweepPlan& plan, const std::vector<RunRow>& rows) 
 std::string sweep_timing_csv(const std::vector<RunRow>& rows) {
   const Columns timings = columns_of(rows, &RunRow::timings);
   std::string text = "run,process_wall_s,process_cpu_s,peak_memory_mb";
-  for (const std::string& timing : timings) text += "," + csv_cell(timing);
+  for (const std::string& timing : timings) append_cell(text, timing);
   text += '\n';
   for (const RunRow& row : rows) {
-    text += row.run.key + "," + fixed_text(row.wall_s, 3) + "," + fixed_text(row.cpu_s, 3) + "," +
-            fixed_text(row.peak_memory_mb, 1);
+    text += row.run.key;
+    append_cell(text, fixed_text(row.wall_s, 3));
+    append_cell(text, fixed_text(row.cpu_s, 3));
+    append_cell(text, fixed_text(row.peak_memory_mb, 1));
     append_cells(text, timings, row.timings);
     text += '\n';
   }
