@@ -23,7 +23,7 @@ td .badge{font-size:12px;padding:1px 9px;white-space:nowrap}a{color:var(--c0)}
 .tiles{display:grid;grid-template-columns:repeat(5,minmax(0,1fr));gap:10px;margin:20px 0 0}
 .tile{background:var(--card);border:1px solid var(--line);border-radius:10px;padding:10px 14px}
 .tile b{display:block;font-size:22px;font-weight:600;font-variant-numeric:tabular-nums;white-space:nowrap}
-.tile b small{font-size:14px;font-weight:400;color:var(--soft)}
+.tile b small{font-size:14px;font-weight:400;color:var(--soft);white-space:normal}
 .tile span{color:var(--soft);font-size:13px}
 .checks{list-style:none;margin:16px 0 0;padding:0}
 .checks li{padding:5px 12px;border-left:4px solid var(--solved);background:var(--card);margin-bottom:4px;overflow-wrap:anywhere}
@@ -68,7 +68,7 @@ details{margin-top:10px}summary{cursor:pointer}
 @media(max-width:760px){main{padding:18px 12px 40px}h1{font-size:23px}h2{margin-top:32px}
 .pair,.triple{grid-template-columns:minmax(0,1fr)}.columns{columns:1}
 .tiles{grid-template-columns:repeat(2,minmax(0,1fr))}.tile{padding:8px 12px}.tile b{font-size:19px}
-.card,.chart,.map{padding:10px}
+.card,.chart,.map{padding:10px}.wide table{min-width:760px}
 .chart svg text{font-size:19px}.strips svg text{font-size:16.5px}.map svg text{font-size:32px}}
 )css";
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
+#include <utility>
 
 #include "tools/evaluation/quantile.h"
 #include "tools/formats/number_text.h"
@@ -149,7 +151,8 @@ CellStyle drift_style(const SweepView& view) {
           [](double drift) { return readable_text(drift); }};
 }
 
-Drawing degenerate_over(const SweepView& view, const AxisBins& axis, const std::string& estimator) {
+/// Nothing for an estimator whose modules solve nothing.
+std::optional<Drawing> degenerate_over(const SweepView& view, const AxisBins& axis, const std::string& estimator) {
   HeatMap map{"degenerate_" + file_name(axis.key + "_" + estimator),
               "Degenerate share of solves, " + estimator,
               "mean over runs",
@@ -158,6 +161,7 @@ Drawing degenerate_over(const SweepView& view, const AxisBins& axis, const std::
               labels_of(axis),
               {},
               {}};
+  bool has_solves = false;
   for (const char* module : {"lidar", "vision"}) {
     map.rows.emplace_back(module);
     map.cells.emplace_back(axis.bins.size());
@@ -172,9 +176,10 @@ Drawing degenerate_over(const SweepView& view, const AxisBins& axis, const std::
           HeatMap::Cell{mean, percent_text(mean),
                         std::string(module) + ", " + axis.key + " " + axis.bins[b].label + ": degenerate in " +
                             percent_text(mean) + " of its solves, " + std::to_string(shares.size()) + " runs"};
+      has_solves = true;
     }
   }
-  return heat_map(map);
+  return has_solves ? std::optional(heat_map(map)) : std::nullopt;
 }
 
 }  // namespace
@@ -228,7 +233,7 @@ std::vector<Drawing> degeneracy_charts(const SweepView& view) {
   std::vector<Drawing> drawings;
   for (const AxisBins& axis : view.axes) {
     for (const std::string& estimator : view.plan.estimators) {
-      drawings.push_back(degenerate_over(view, axis, estimator));
+      if (auto drawing = degenerate_over(view, axis, estimator)) drawings.push_back(std::move(*drawing));
     }
   }
   return drawings;

@@ -24,7 +24,9 @@ std::string head(const std::vector<std::string>& columns, const std::vector<std:
   return html + "</tr>";
 }
 
-std::string table(const std::string& rows) { return "<div class=\"card scroll\"><table>" + rows + "</table></div>"; }
+std::string table(const std::string& rows) {
+  return "<div class=\"card scroll wide\"><table>" + rows + "</table></div>";
+}
 
 std::string shown(const std::optional<double>& value) { return value ? readable_text(*value) : "–"; }
 

@@ -24,14 +24,17 @@ ConfigNode without(ConfigNode keys, const Path& path) {
   return keys;
 }
 
-bool must_stay(const Path& path) { return path == Path{"seed"} || path == Path{"estimator", "name"}; }
+bool must_stay(const Path& path, const ConfigNode& value) {
+  return path == Path{"seed"} || path == Path{"estimator", "name"} ||
+         (path == Path{"estimator"} && value.entries.contains("name"));
+}
 
 /// Every key, sections before what they hold.
 void append_paths(const ConfigNode& node, const Path& above, std::vector<Path>& paths) {
   for (const auto& [key, value] : node.entries) {
     Path path = above;
     path.push_back(key);
-    if (!must_stay(path)) paths.push_back(path);
+    if (!must_stay(path, value)) paths.push_back(path);
     append_paths(value, path, paths);
   }
 }
