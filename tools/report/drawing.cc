@@ -39,7 +39,9 @@ std::string svg_document(const Drawing& drawing) {
   const std::string caption = drawing.caption + (drawing.unit.empty() ? "" : " [" + drawing.unit + "]");
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + size +
          "\" width=\"" + coordinate(drawing.width) + "\" height=\"" + coordinate(height) + "\"><style><![CDATA[" +
-         kPageStyle + "]]></style><rect style=\"--hue:var(--card)\" width=\"100%\" height=\"100%\"/>" +
+         kPageStyle +
+         "svg{font-family:system-ui,sans-serif}]]></style><rect style=\"--hue:var(--card)\" width=\"100%\" "
+         "height=\"100%\"/>" +
          svg_text(kMargin, 22.0, "start", caption) + "<g transform=\"translate(0 " + coordinate(kHeader) + ")\">" +
          drawing.body + "</g>" + legend_rows(drawing, kHeader + drawing.height + 14.0) + "</svg>\n";
 }

@@ -30,7 +30,10 @@ bool says(const std::string& output, int error) { return output.find(std::strerr
 
 void refuse_full_disk(const ChildEnd& end) {
   for (const int error : {ENOSPC, EDQUOT, EROFS}) {
-    if (says(end.output, error)) throw InputError(std::string("a run could not be written: ") + std::strerror(error));
+    if (says(end.output, error)) {
+      throw InputError(std::string("a run could not be written: ") + std::strerror(error) +
+                       "; what has finished is kept, --resume goes on");
+    }
   }
 }
 

@@ -19,6 +19,11 @@ CREATE TABLE run (
 ) WITHOUT ROWID, STRICT;
 )sql";
 
+[[noreturn]] void fail_damaged(const std::filesystem::path& path, const std::string& said) {
+  throw InputError(path.string() + ": damaged database: " + said +
+                   "; move this file away and --resume takes over the finished runs from their directories");
+}
+
 /// What SQLite says, and what to do about it.
 [[noreturn]] void fail(sqlite3* database, const std::filesystem::path& path) {
   const int code = database != nullptr ? sqlite3_errcode(database) & 0xff : SQLITE_NOMEM;
@@ -91,10 +96,7 @@ void check_schema(sqlite3* database, const std::filesystem::path& path) {
                      std::to_string(kSchemaVersion));
   }
   Statement check(database, path, "PRAGMA quick_check(1)");
-  if (check.step() && check.text(0) != "ok") {
-    throw InputError(path.string() + ": damaged database: " + check.text(0) +
-                     "; move this file away and --resume takes over the finished runs from their directories");
-  }
+  if (check.step() && check.text(0) != "ok") fail_damaged(path, check.text(0));
 }
 
 }  // namespace

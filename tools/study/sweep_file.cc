@@ -31,17 +31,6 @@ std::optional<double> number_in(const ConfigNode& node) {
   return value;
 }
 
-/// Ten digits: enough for any setting, and free of the last bit's noise that 0.1 + 0.2 has.
-AxisValue numeric_value(double number) {
-  AxisValue value;
-  append_general(value.text, number, 10);
-  // What counts is the text, which is what the run is given.
-  double shown = number;
-  std::from_chars(value.text.data(), value.text.data() + value.text.size(), shown);
-  value.number = shown;
-  return value;
-}
-
 bool before(const AxisValue& a, const AxisValue& b) {
   if (a.number && b.number) return *a.number < *b.number;
   return a.text < b.text;
@@ -71,7 +60,7 @@ std::vector<AxisValue> spread(const std::pair<double, double>& bounds, bool loga
   std::vector<AxisValue> values;
   for (int i = 0; i < count; ++i) {
     const double share = static_cast<double>(i) / (count - 1);
-    values.push_back(numeric_value(logarithmic ? bounds.first * std::pow(bounds.second / bounds.first, share)
+    values.push_back(rounded_value(logarithmic ? bounds.first * std::pow(bounds.second / bounds.first, share)
                                                : bounds.first + share * (bounds.second - bounds.first)));
   }
   return values;
@@ -82,7 +71,7 @@ std::vector<AxisValue> stepped(const ConfigNode& node, const std::string& key, c
   const double steps = std::floor((bounds.second - bounds.first) / step + 1e-9);
   if (steps < 1.0 || steps >= kCount.max) fail_at(node, key, "a step that gives from 2 to 10000 values");
   std::vector<AxisValue> values;
-  for (int i = 0; i <= static_cast<int>(steps); ++i) values.push_back(numeric_value(bounds.first + i * step));
+  for (int i = 0; i <= static_cast<int>(steps); ++i) values.push_back(rounded_value(bounds.first + i * step));
   return values;
 }
 
@@ -206,6 +195,17 @@ void read_boundary(ConfigReader& reader, SweepFile& sweep) {
 }
 
 }  // namespace
+
+AxisValue rounded_value(double number) {
+  constexpr int kDigits = 6;
+  AxisValue value;
+  append_general(value.text, number, kDigits);
+  // What counts is the text, which is what the run is given.
+  double shown = number;
+  std::from_chars(value.text.data(), value.text.data() + value.text.size(), shown);
+  value.number = shown;
+  return value;
+}
 
 bool SweepAxis::is_numeric() const {
   return is_sampled() || std::all_of(values.begin(), values.end(), [](const AxisValue& v) { return v.number; });

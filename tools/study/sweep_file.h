@@ -16,6 +16,9 @@ struct AxisValue {
   std::optional<double> number;  ///< if it is one
 };
 
+/// A place in a range, to six digits: readable, and free of the last bit's noise that 0.1 + 0.2 has.
+AxisValue rounded_value(double number);
+
 /// A key of the scenario and what it ranges over.
 struct SweepAxis {
   std::string key;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "scenarios/scenario.h"
-#include "tools/formats/number_text.h"
 #include "tools/output/provenance.h"
 #include "tools/study/sampling.h"
 
@@ -18,10 +17,7 @@ using Values = std::vector<AxisValue>;
 AxisValue sampled_value(const SweepAxis& axis, double share) {
   const auto [from, to] = *axis.range;
   const double number = axis.logarithmic ? from * std::pow(to / from, share) : from + share * (to - from);
-  AxisValue value;
-  append_general(value.text, number, 10);
-  value.number = std::stod(value.text);
-  return value;
+  return rounded_value(number);
 }
 
 /// One row per point of the sample; the columns of axes that are not sampled stay empty.
