@@ -35,7 +35,8 @@ case "$1" in
 esac
 sleep 0.03
 mkdir -p "$2.part"
-printf '{"status":"ok","drift_percent":0.5%s,"real_time_factor":%s,"wall_s":0.1,"provenance":%s}' "$1" "$$" "$3" > "$2.part/result.json"
+result='{"status":"ok","drift_percent":0.5%s,"real_time_factor":%s,"wall_s":0.1,"provenance":%s}'
+printf "$result" "$1" "$$" "$3" > "$2.part/result.json"
 exec mv "$2.part" "$2"
 )sh";
 
