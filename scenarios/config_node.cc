@@ -61,6 +61,28 @@ std::string canonical_yaml(const ConfigNode& node) {
   return out.erase(0, 1) + '\n';
 }
 
+std::string flow_yaml(const ConfigNode& node) {
+  std::string out;
+  if (node.is_map()) {
+    for (const auto& [key, value] : node.entries) {
+      out += out.empty() ? "" : ", ";
+      out += key + ": " + flow_yaml(value);
+    }
+    return out.insert(0, 1, '{') + '}';
+  }
+  if (node.is_sequence()) {
+    for (const auto& item : node.items) {
+      out += out.empty() ? "" : ", ";
+      out += flow_yaml(item);
+    }
+    return out.insert(0, 1, '[') + ']';
+  }
+  ConfigNode scalar = node;
+  // A word may hold what would end it in flow style; no number or truth value does.
+  scalar.quoted = node.quoted || node.text.find_first_of(",[]{}:#\n") != std::string::npos;
+  return scalar_yaml(scalar);
+}
+
 std::string described(const ConfigNode& node) {
   constexpr std::size_t kLongest = 60;
   if (node.is_map()) return "a map of keys";

@@ -32,6 +32,9 @@ ConfigNode merged(ConfigNode base, const ConfigNode& over);
 /// One canonical YAML text per value: block style, keys sorted.
 std::string canonical_yaml(const ConfigNode& node);
 
+/// The value on one line, in YAML's flow style, keys sorted: what can stand after the '=' of an override.
+std::string flow_yaml(const ConfigNode& node);
+
 /// What a message says of a value that is not what it should be: "'fast'", "a list", "nothing".
 std::string described(const ConfigNode& node);
 

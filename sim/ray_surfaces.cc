@@ -1,5 +1,6 @@
 #include "sim/ray_surfaces.h"
 
+#include <embree3/rtcore.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -15,6 +16,10 @@ constexpr double kFloatPadding_m = 1e-3;
 // Seen flatter than this, a plane answers far off for an error in the last digit.
 constexpr double kGrazing = 0.02;
 
+struct EmbreeRelease {
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+};
 using Scene = std::unique_ptr<RTCSceneTy, EmbreeRelease>;
 using Geometry = std::unique_ptr<RTCGeometryTy, EmbreeRelease>;
 

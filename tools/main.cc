@@ -23,6 +23,9 @@ int run_program(int argc, char** argv) {
   add_run_command(app, chosen);
   add_evaluate_command(app, chosen);
   add_list_command(app, chosen);
+  add_merge_command(app, chosen);
+  add_report_command(app, chosen);
+  add_sweep_command(app, chosen);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {

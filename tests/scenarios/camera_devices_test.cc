@@ -135,7 +135,8 @@ PoseTrack resting(const Pose& world_from_body) {
 TEST(CatalogueCameras, LidarPointsFallOnTheDepthsThatTheCameraSees) {
   const World world = plain_garage();
   const RayScene rays(world);
-  // The lidar stands where the camera stands: from anywhere else it would see what is hidden from the camera.
+  // The middle of the lidar's beams is where the camera stands: from elsewhere they see what is hidden from it. The
+  // two blocks of the HDL-64E still begin 5 cm above and below it.
   const Pose body_from_camera{body_from_optical_rotation(), Eigen::Vector3d::Zero()};
   const std::vector<Pose> places{{rotation_from_rpy({0.0, 0.0, 0.3}), {6.0, 4.75, 1.5}},
                                  {rotation_from_rpy({0.05, 0.1, -2.0}), {45.0, -4.75, 1.4}},
@@ -146,7 +147,13 @@ TEST(CatalogueCameras, LidarPointsFallOnTheDepthsThatTheCameraSees) {
     const RenderView view = Lens(catalogue_camera(camera_name), effects).view();
     Renderer renderer(world, view, {.threads = 0, .depth = true});
     for (const std::string& lidar_name : catalogue_names("lidar")) {
-      const Lidar lidar(catalogue_lidar(lidar_name), Pose{}, 1, LidarEffects::none());
+      const LidarModel model = catalogue_lidar(lidar_name);
+      double middle_m = 0.0;
+      for (const LidarBeam& beam : model.beams) {
+        middle_m += beam.vertical_offset_m / static_cast<double>(model.beams.size());
+      }
+      const Pose body_from_lidar{Eigen::Quaterniond::Identity(), {0.0, 0.0, -middle_m}};
+      const Lidar lidar(model, body_from_lidar, 1, LidarEffects::none());
       Agreement all;
       for (const Pose& world_from_body : places) {
         RenderMoment moment;
@@ -154,7 +161,7 @@ TEST(CatalogueCameras, LidarPointsFallOnTheDepthsThatTheCameraSees) {
         moment.world_from_camera = world_from_body * body_from_camera;
         const std::vector<float> depth_m = renderer.render(moment).depth_m;
         const LidarScan scan = lidar.scan({world, rays}, resting(world_from_body), 0, 0);
-        const Agreement one = compare(scan, body_from_camera.inverse(), view, depth_m);
+        const Agreement one = compare(scan, body_from_camera.inverse() * body_from_lidar, view, depth_m);
         all.points += one.points;
         all.within += one.within;
       }

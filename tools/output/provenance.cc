@@ -36,6 +36,11 @@ std::string operating_system() {
 
 }  // namespace
 
+std::string program_version() {
+  const std::string commit = kGitCommit;
+  return kVersion + (commit.empty() ? std::string() : " (" + commit + ")");
+}
+
 Provenance make_provenance(const Scenario& scenario, int threads) {
   Provenance provenance;
   provenance.version = kVersion;

@@ -24,6 +24,9 @@ struct Provenance {
   std::string os;
 };
 
+/// "0.1.0 (7c7af71)": the version, and the commit where it is known.
+std::string program_version();
+
 Provenance make_provenance(const Scenario& scenario, int threads);
 
 /// For tables: what it is called, and what it is.

@@ -17,12 +17,13 @@ h1{font-size:28px;line-height:1.2;margin:0;overflow-wrap:anywhere}
 h2{font-size:19px;margin:40px 0 4px}
 p.note{margin:0 0 12px;color:var(--soft);max-width:80ch}
 .badge{font-weight:600;font-size:14px;padding:2px 12px;border-radius:99px;color:#fff;background:var(--soft)}
+td .badge{font-size:12px;padding:1px 9px;white-space:nowrap}a{color:var(--c0)}td a{white-space:nowrap}
 .badge.ok{background:#1f7f63}.badge.failed{background:#a66c00}.badge.lost,.badge.error{background:#b81d3a}
 .sub{color:var(--soft)}
 .tiles{display:grid;grid-template-columns:repeat(5,minmax(0,1fr));gap:10px;margin:20px 0 0}
 .tile{background:var(--card);border:1px solid var(--line);border-radius:10px;padding:10px 14px}
 .tile b{display:block;font-size:22px;font-weight:600;font-variant-numeric:tabular-nums;white-space:nowrap}
-.tile b small{font-size:14px;font-weight:400;color:var(--soft)}
+.tile b small{font-size:14px;font-weight:400;color:var(--soft);white-space:normal}
 .tile span{color:var(--soft);font-size:13px}
 .checks{list-style:none;margin:16px 0 0;padding:0}
 .checks li{padding:5px 12px;border-left:4px solid var(--solved);background:var(--card);margin-bottom:4px;overflow-wrap:anywhere}
@@ -49,6 +50,7 @@ svg text{font-size:13px;fill:var(--soft);font-family:inherit}
 .nothing{--hue:var(--nothing)}.bar{--hue:var(--c0)}
 .line{stroke:var(--hue)}rect{fill:var(--hue)}
 .line.warn{stroke-width:2.6}.map .line{stroke-width:2}.map .truth.line{stroke-width:3.2;opacity:.75}
+.band{fill:var(--hue);opacity:.2}.dot{fill:var(--hue)}svg text.on-pale{fill:#2b1a10}svg text.on-dark{fill:#fff}
 .scale,.whisker{stroke:var(--ink);stroke-width:1.6;vector-effect:non-scaling-stroke}
 circle.start{fill:var(--card);stroke:var(--ink);stroke-width:2}circle.end{fill:var(--hue)}
 .depth-lidar{--hue:#35d0ba}.depth-triangulated{--hue:#ffa62b}.depth-none{--hue:#9fb4ff}.outlier{--hue:#ff3b5c}
@@ -56,7 +58,7 @@ circle.start{fill:var(--card);stroke:var(--ink);stroke-width:2}circle.end{fill:v
 .camera svg{border-radius:8px;background:#000}
 .legend{display:flex;flex-wrap:wrap;gap:2px 14px;color:var(--soft);font-size:13px;margin:2px 0 4px}
 .legend i{display:inline-block;width:14px;height:10px;border-radius:3px;background:var(--hue);margin-right:6px}
-.scroll{overflow-x:auto}
+.scroll{overflow-x:auto}.pair+.card{margin-top:14px}
 table{border-collapse:collapse;width:100%;font-size:14px}
 th,td{text-align:left;padding:4px 10px 4px 0;border-bottom:1px solid var(--line);vertical-align:top;overflow-wrap:anywhere}
 th{color:var(--soft);font-weight:500;white-space:nowrap}td.number,th.number{text-align:right;font-variant-numeric:tabular-nums}
@@ -66,7 +68,7 @@ details{margin-top:10px}summary{cursor:pointer}
 @media(max-width:760px){main{padding:18px 12px 40px}h1{font-size:23px}h2{margin-top:32px}
 .pair,.triple{grid-template-columns:minmax(0,1fr)}.columns{columns:1}
 .tiles{grid-template-columns:repeat(2,minmax(0,1fr))}.tile{padding:8px 12px}.tile b{font-size:19px}
-.card,.chart,.map{padding:10px}
+.card,.chart,.map{padding:10px}.wide table{min-width:760px}
 .chart svg text{font-size:19px}.strips svg text{font-size:16.5px}.map svg text{font-size:32px}}
 )css";
 

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace plumbline {
+
+struct SweepArguments {
+  std::string sweep;
+  std::string out;
+  int jobs = 0;       ///< 0: as many as the machine has cores
+  std::string shard;  ///< "I/N"; empty: all
+  bool resume = false;
+  std::string shrink;  ///< key of a failing run to reduce, in place of sweeping
+};
+
+/// Makes the runs of a sweep file, or goes on with them, and writes its tables and report. @returns the exit code
+int run_sweep(const SweepArguments& arguments);
+
+}  // namespace plumbline

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "tools/study/run_rows.h"
+
+namespace plumbline {
+
+struct MergedSweep {
+  SweepPlan plan;
+  std::vector<RunRow> rows;
+};
+
+/// Brings the runs of one sweep together that were made in several directories, with their own directories copied.
+/// What comes out can be resumed like any sweep. `target` may itself hold what an earlier merge left.
+/// @throws InputError if a source is no sweep or another one, or two hold different results of the same run
+MergedSweep merge_sweeps(const std::vector<std::filesystem::path>& sources, const std::filesystem::path& target);
+
+}  // namespace plumbline
