@@ -16,14 +16,15 @@ std::int64_t period_ns(double rate_hz) { return std::llround(1e9 / rate_hz); }
 
 }  // namespace
 
-FrameStream::FrameStream(const Scenario& scenario, const Surroundings& surroundings, const Trajectory& world_from_body)
+FrameStream::FrameStream(const Scenario& scenario, const Surroundings& surroundings, const Trajectory& world_from_body,
+                         int renderer_threads)
     : scenario_(scenario), surroundings_(surroundings), end_ns_(world_from_body.end_ns()), driver_(world_from_body) {
   add_grey_cameras();
   if (scenario.rig.depth_camera) add_depth_camera(*scenario.rig.depth_camera);
 }
 
 Renderer& FrameStream::add_renderer(const RenderView& view, bool depth) {
-  const RendererOptions options{.threads = 0, .depth = depth, .own_body = surroundings_.own_body};
+  const RendererOptions options{.threads = renderer_threads_, .depth = depth, .own_body = surroundings_.own_body};
   return *renderers_.emplace_back(std::make_unique<Renderer>(surroundings_.world, view, options));
 }
 

@@ -19,7 +19,9 @@ namespace plumbline {
 class FrameStream {
  public:
   /// The arguments must outlive the stream.
-  FrameStream(const Scenario& scenario, const Surroundings& surroundings, const Trajectory& world_from_body);
+  /// @param renderer_threads  besides the caller's: see RendererOptions::threads
+  FrameStream(const Scenario& scenario, const Surroundings& surroundings, const Trajectory& world_from_body,
+              int renderer_threads);
 
   /// The next frame; null after the motion's end.
   std::unique_ptr<SensorMessage> next();
@@ -44,6 +46,7 @@ class FrameStream {
   const Scenario& scenario_;
   const Surroundings surroundings_;
   const std::int64_t end_ns_;
+  const int renderer_threads_;
   RigDriver driver_;
   std::vector<std::unique_ptr<Renderer>> renderers_;
   std::vector<Source> sources_;

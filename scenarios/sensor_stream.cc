@@ -16,6 +16,9 @@ namespace {
 // A second of frames and scans: enough to even out the load, 16 MB at most.
 constexpr std::size_t kMessagesAhead = 60;
 
+// Drawing is more than half of a run's work: on a thread of its own it would keep everyone waiting.
+constexpr int kRendererThreads = 2;
+
 /// Two sources as one, in order of arrival; the first goes first at one time.
 class MergedSource {
  public:
@@ -102,13 +105,15 @@ double light_factor_at(const std::vector<LightStep>& schedule, std::int64_t stam
 MessageSource make_source(const Scenario& scenario, const Surroundings& surroundings,
                           const Trajectory& world_from_body) {
   return all_sensors(scenario, world_from_body,
-                     source_of(std::make_shared<FrameStream>(scenario, surroundings, world_from_body)),
+                     source_of(std::make_shared<FrameStream>(scenario, surroundings, world_from_body, 0)),
                      source_of(std::make_shared<ScanStream>(scenario, surroundings, world_from_body)));
 }
 
 MessageSource make_read_ahead_source(const Scenario& scenario, const Surroundings& surroundings,
                                      const Trajectory& world_from_body) {
-  const auto frames = [&] { return source_of(std::make_shared<FrameStream>(scenario, surroundings, world_from_body)); };
+  const auto frames = [&] {
+    return source_of(std::make_shared<FrameStream>(scenario, surroundings, world_from_body, kRendererThreads));
+  };
   const auto scans = [&] { return source_of(std::make_shared<ScanStream>(scenario, surroundings, world_from_body)); };
   return all_sensors(scenario, world_from_body, source_of(std::make_shared<ReadAhead>(frames)),
                      source_of(std::make_shared<ReadAhead>(scans)));
