@@ -18,7 +18,11 @@ std::int64_t period_ns(double rate_hz) { return std::llround(1e9 / rate_hz); }
 
 FrameStream::FrameStream(const Scenario& scenario, const Surroundings& surroundings, const Trajectory& world_from_body,
                          int renderer_threads)
-    : scenario_(scenario), surroundings_(surroundings), end_ns_(world_from_body.end_ns()), driver_(world_from_body) {
+    : scenario_(scenario),
+      surroundings_(surroundings),
+      end_ns_(world_from_body.end_ns()),
+      renderer_threads_(renderer_threads),
+      driver_(world_from_body) {
   add_grey_cameras();
   if (scenario.rig.depth_camera) add_depth_camera(*scenario.rig.depth_camera);
 }
