@@ -23,7 +23,7 @@ constexpr double kWholeWorld_m = 400.0;
 constexpr double kReachStep_m = 50.0;
 constexpr std::size_t kWindowsKept = 8;
 
-using WindowKey = std::pair<RayTiles::Key, int>;  // the square, and how many steps it reaches
+using WindowKey = std::pair<TileKey, int>;  // the square, and how many steps it reaches
 constexpr WindowKey kEverything{{0, 0}, -1};
 
 // As mj_ray: a material's alpha, where there is one, stands instead of the geom's own.
@@ -143,7 +143,7 @@ void RayScene::Impl::add_geom(const World& world, int geom) {
 std::shared_ptr<const RaySurfaces> RayScene::Impl::standing_near(const Eigen::Vector3d& place, double reach_m) {
   if (whole) return whole;
   const int steps = static_cast<int>(std::ceil(std::min(reach_m, 1e6) / kReachStep_m));
-  WindowKey key{RayTiles::key_at(place), steps};
+  WindowKey key{TileKey::at(place.head<2>()), steps};
   if (tiles->all_within(key.first, steps * kReachStep_m)) key = kEverything;
   const std::lock_guard lock(mutex);
   const auto found = std::find_if(kept.begin(), kept.end(), [&](const auto& entry) { return entry.first == key; });

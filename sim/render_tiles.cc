@@ -3,7 +3,6 @@
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "sim/geom_mesh.h"
 #include "sim/render_chunks.h"
@@ -26,12 +25,14 @@ Eigen::AlignedBox3d bounds_of(const World& world, int geom) {
   return {bounds.min() - margin, bounds.max() + margin};
 }
 
+Eigen::AlignedBox2d plan_of(const Eigen::AlignedBox3d& box) {
+  return {Eigen::Vector2d(box.min().head<2>()), Eigen::Vector2d(box.max().head<2>())};
+}
+
 bool is_boundless(const mjModel& model, int geom) {
   return model.geom_type[geom] == mjGEOM_PLANE &&
          (model.geom_size[3 * geom] <= 0.0 || model.geom_size[3 * geom + 1] <= 0.0);
 }
-
-int tile_at(double coordinate) { return static_cast<int>(std::floor(coordinate / TileIndex::kTile_m)); }
 
 }  // namespace
 
@@ -45,9 +46,7 @@ TileIndex::TileIndex(const World& world) {
     }
     const Eigen::AlignedBox3d bounds = bounds_of(world, geom);
     all.extend(bounds);
-    for (int x = tile_at(bounds.min().x()); x <= tile_at(bounds.max().x()); ++x) {
-      for (int y = tile_at(bounds.min().y()); y <= tile_at(bounds.max().y()); ++y) geoms_[{x, y}].push_back(geom);
-    }
+    for_each_tile(plan_of(bounds), [&](const TileKey& key) { geoms_[key].push_back(geom); });
   }
   if (!all.isEmpty()) {
     lowest_m_ = all.min().z();
@@ -60,19 +59,17 @@ TileIndex::TileIndex(const World& world) {
   }
 }
 
-std::vector<TileIndex::Key> TileIndex::near(const Eigen::Vector3d& place, double distance_m) const {
-  std::vector<Key> keys;
-  for (int x = tile_at(place.x() - distance_m); x <= tile_at(place.x() + distance_m); ++x) {
-    for (int y = tile_at(place.y() - distance_m); y <= tile_at(place.y() + distance_m); ++y) {
-      const Key key{x, y};
-      if (boundless_.empty() && !geoms_.contains(key)) continue;
-      if (box_of(key).exteriorDistance(place) <= distance_m) keys.push_back(key);
-    }
-  }
+std::vector<TileKey> TileIndex::near(const Eigen::Vector3d& place, double distance_m) const {
+  const Eigen::Array3d reach = Eigen::Array3d::Constant(distance_m);
+  std::vector<TileKey> keys;
+  for_each_tile(plan_of({place.array() - reach, place.array() + reach}), [&](const TileKey& key) {
+    if (boundless_.empty() && !geoms_.contains(key)) return;
+    if (box_of(key).exteriorDistance(place) <= distance_m) keys.push_back(key);
+  });
   return keys;
 }
 
-std::vector<int> TileIndex::geoms_in(const Key& key) const {
+std::vector<int> TileIndex::geoms_in(const TileKey& key) const {
   std::vector<int> geoms = boundless_;
   const auto found = geoms_.find(key);
   if (found != geoms_.end()) geoms.insert(geoms.end(), found->second.begin(), found->second.end());
@@ -80,9 +77,10 @@ std::vector<int> TileIndex::geoms_in(const Key& key) const {
   return geoms;
 }
 
-Eigen::AlignedBox3d TileIndex::box_of(const Key& key) const {
-  return {Eigen::Vector3d(key.x * kTile_m, key.y * kTile_m, lowest_m_),
-          Eigen::Vector3d((key.x + 1) * kTile_m, (key.y + 1) * kTile_m, highest_m_)};
+Eigen::AlignedBox3d TileIndex::box_of(const TileKey& key) const {
+  const Eigen::AlignedBox2d plan = key.plan();
+  return {Eigen::Vector3d(plan.min().x(), plan.min().y(), lowest_m_),
+          Eigen::Vector3d(plan.max().x(), plan.max().y(), highest_m_)};
 }
 
 }  // namespace plumbline

@@ -171,7 +171,7 @@ struct Renderer::Impl {
   DrawnChunk upload(const RenderChunk& chunk);
   DrawnBody upload_body(const World& of_world, const std::vector<int>& geoms, const Pose& world_from_body,
                         const std::vector<int>& layers);
-  const DrawnTile& tile_at(const TileIndex::Key& key);
+  const DrawnTile& tile_at(const TileKey& key);
   void forget_tiles_far_from(const Eigen::Vector3d& place);
   std::vector<Visible> visible_chunks(const Pose& world_from_camera, const Eigen::Matrix4d& clip_from_world);
   void use(ShaderFeatures features);
@@ -193,7 +193,7 @@ struct Renderer::Impl {
   RenderMoment moment;
   std::vector<int> layer_of_material;
   TileIndex index;
-  std::map<TileIndex::Key, DrawnTile> tiles;
+  std::map<TileKey, DrawnTile> tiles;
   std::vector<DrawnBody> movers;  ///< as world.movers()
   DrawnBody own_body;
   RadianceImage image;
@@ -274,7 +274,7 @@ DrawnChunk Renderer::Impl::upload(const RenderChunk& chunk) {
 }
 
 /// Made when it is first seen.
-const DrawnTile& Renderer::Impl::tile_at(const TileIndex::Key& key) {
+const DrawnTile& Renderer::Impl::tile_at(const TileKey& key) {
   const auto [entry, is_new] = tiles.try_emplace(key);
   DrawnTile& drawn = entry->second;
   if (!is_new) return drawn;
@@ -302,7 +302,7 @@ std::vector<Visible> Renderer::Impl::visible_chunks(const Pose& world_from_camer
                                                     const Eigen::Matrix4d& clip_from_world) {
   const Eigen::Vector3d& eye = world_from_camera.translation;
   std::vector<Visible> visible;
-  for (const TileIndex::Key& key : index.near(eye, farthest_m)) {
+  for (const TileKey& key : index.near(eye, farthest_m)) {
     if (outside_view(index.box_of(key), clip_from_world)) continue;
     const DrawnTile& tile = tile_at(key);
     for (const DrawnChunk& chunk : tile.chunks) {
