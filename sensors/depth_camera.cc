@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sensors/lens.h"
 #include "sensors/photon_noise.h"
 #include "sim/random_stream.h"
 
@@ -15,18 +16,6 @@ namespace {
 
 // Surfaces at less than a pixel of disparity from each other match as one.
 constexpr float kJump_px = 1.0F;
-
-RenderView view_of(const DepthCameraModel& model) {
-  const CameraIntrinsics intrinsics = intrinsics_of(model);
-  RenderView view;
-  view.width = intrinsics.width;
-  view.height = intrinsics.height;
-  view.fx = intrinsics.fx;
-  view.fy = intrinsics.fy;
-  view.cx = intrinsics.cx;
-  view.cy = intrinsics.cy;
-  return view;
-}
 
 }  // namespace
 
@@ -56,7 +45,7 @@ DepthCamera::DepthCamera(DepthCameraModel model, const DepthCameraEffects& effec
     : model_((validate_or_throw(model), std::move(model))),
       effects_(effects),
       seed_(derive_seed(seed, name)),
-      view_(view_of(model_)),
+      view_(pinhole_view(intrinsics_of(model_))),
       focal_length_times_baseline_(static_cast<float>(view_.fx * model_.baseline_m)) {}
 
 DepthFrame DepthCamera::measure(const RadianceImage& picture, std::int64_t stamp_ns, int camera_id,

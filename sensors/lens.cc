@@ -11,17 +11,6 @@ namespace {
 // A lens of f-number N and transmission tau puts pi L tau / (4 N^2) lux on the sensor (distant object, on the axis).
 constexpr double kTransmission = 0.9;
 
-RenderView pinhole(const CameraIntrinsics& intrinsics) {
-  RenderView view;
-  view.width = intrinsics.width;
-  view.height = intrinsics.height;
-  view.fx = intrinsics.fx;
-  view.fy = intrinsics.fy;
-  view.cx = intrinsics.cx;
-  view.cy = intrinsics.cy;
-  return view;
-}
-
 /// x/z and y/z of the rays through all pixels, row-major.
 std::vector<Eigen::Vector2f> rays_of(const CameraIntrinsics& c) {
   std::vector<Eigen::Vector2f> rays;
@@ -37,8 +26,19 @@ std::vector<Eigen::Vector2f> rays_of(const CameraIntrinsics& c) {
 
 }  // namespace
 
+RenderView pinhole_view(const CameraIntrinsics& intrinsics) {
+  RenderView view;
+  view.width = intrinsics.width;
+  view.height = intrinsics.height;
+  view.fx = intrinsics.fx;
+  view.fy = intrinsics.fy;
+  view.cx = intrinsics.cx;
+  view.cy = intrinsics.cy;
+  return view;
+}
+
 Lens::Lens(const CameraModel& model, const CameraEffects& effects)
-    : intrinsics_(intrinsics_of(model, effects)), view_(pinhole(intrinsics_)) {
+    : intrinsics_(intrinsics_of(model, effects)), view_(pinhole_view(intrinsics_)) {
   const std::vector<Eigen::Vector2f> rays = rays_of(intrinsics_);
   set_illuminance(rays, model.f_number, effects.vignetting);
   if (intrinsics_.distortion.none()) return;

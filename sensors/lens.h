@@ -9,6 +9,9 @@
 
 namespace plumbline {
 
+/// The picture that a camera without distortion takes.
+RenderView pinhole_view(const CameraIntrinsics& intrinsics);
+
 /// Brings a pinhole's pictures onto the sensor: distortion by a table of places, bilinearly, and the fall-off of light
 /// towards the corners.
 class Lens {

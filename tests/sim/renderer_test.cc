@@ -205,6 +205,52 @@ TEST(Renderer, LuminanceOfALitPlateFollowsLambertAndTheInverseSquare) {
   }
 }
 
+TEST(Renderer, TheSunLightsByTheCosineAndNothingFromBehind) {
+  SceneDescription scene = wall(kGrey, 10.0);
+  scene.ambient_lux = 1000.0;
+  const RenderView view = wide_view();
+  for (const double side : {-1.0, 1.0}) {
+    scene.sun = {Eigen::Vector3d(0.6 * side, 0.0, 0.8), 50'000.0};
+    const World world = World::from_scene(scene, 1);
+    Renderer renderer(world, view);
+    const double lux = 1000.0 + (side < 0.0 ? 0.6 * 50'000.0 : 0.0);
+    const float luminance = pixel(renderer.render(moment(camera_at({-5, 0, 0}), 1.0)).luminance, view, 320, 180);
+    EXPECT_NEAR(luminance / (0.5 / kPi * lux), 1.0, 1e-5);
+  }
+}
+
+// Koschmieder's law: at the visibility, 2 % of a black wall's contrast with the air is left.
+TEST(Renderer, FogLeavesTwoPercentOfTheContrastAtTheVisibility) {
+  Material black = kGrey;
+  black.albedo = 0.0F;
+  World world = World::from_scene(wall(black), 1);
+  world.atmosphere.fog_visibility_m = 30.0;
+  const RenderView view = wide_view();
+  Renderer renderer(world, view);
+  const double air = pixel(renderer.render(moment(camera_at({-5, 0, 0}, kPi), 1.0)).luminance, view, 320, 180);
+  const double seen = pixel(renderer.render(moment(camera_at({-30, 0, 0}), 1.0)).luminance, view, 320, 180);
+  EXPECT_GT(air, 0.0);
+  EXPECT_NEAR(1.0 - seen / air, 0.02, 1e-4);
+}
+
+TEST(Renderer, TwoSidedSurfacesAreSeenFromBehind) {
+  SceneDescription scene = wall(kGrey, 1.0);
+  SceneMesh leaf;
+  leaf.name = "leaf";
+  leaf.material = "grey";
+  leaf.vertices = {{-2, -3, -3}, {-2, 3, -3}, {-2, 0, 3}};
+  leaf.triangles = {{0, 1, 2}};  // faces +x, away from the camera
+  scene.meshes = {leaf};
+  const RenderView view = wide_view();
+  for (const bool two_sided : {false, true}) {
+    scene.materials.front().two_sided = two_sided;
+    const World world = World::from_scene(scene, 1);
+    Renderer renderer(world, view);
+    const float depth = pixel(renderer.render(moment(camera_at({-5, 0, 0}), 1.0)).depth_m, view, 320, 180);
+    EXPECT_NEAR(depth, two_sided ? 3.0 : 5.0, 1e-3);
+  }
+}
+
 TEST(Renderer, LampsAddUpAndDarknessIsBlack) {
   SceneDescription scene = wall(kGrey, 10.0);
   scene.ambient_lux = 0.0;
