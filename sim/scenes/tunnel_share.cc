@@ -1,0 +1,145 @@
+#include "sim/scenes/tunnel_share.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+namespace plumbline {
+namespace {
+
+constexpr double kLidarHeight_m = 1.5;
+constexpr double kReach_m = 100.0;
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+/// Distance from the lidar to a strip of unlimited length along a ray.
+double distance_to_strip(const TunnelStrip& strip, const Eigen::Vector3d& direction) {
+  const Eigen::Vector2d in_section = direction.tail<2>();
+  const double approach = -in_section.dot(strip.normal());
+  if (approach <= 0.0) return kNever;
+  const Eigen::Vector2d lidar = Eigen::Vector2d(0.0, kLidarHeight_m) - strip.middle;
+  const double t = lidar.dot(strip.normal()) / approach;
+  const double v = (lidar + t * in_section).dot(strip.across());
+  return std::abs(v) <= strip.width / 2.0 + strip.overlap ? t : kNever;
+}
+
+struct BoxHit {
+  double distance_m = kNever;
+  bool faces_axis = false;
+};
+
+/// A ray from a place s against a box, by its slabs.
+BoxHit hit_box(const StandOut& thing, const TunnelStrip& strip, double s, const Eigen::Vector3d& direction) {
+  const Eigen::Vector2d lidar = Eigen::Vector2d(0.0, kLidarHeight_m) - strip.middle;
+  const Eigen::Vector2d in_section = direction.tail<2>();
+  const double origin[] = {s, lidar.dot(strip.across()), lidar.dot(strip.normal())};
+  const double along[] = {direction.x(), in_section.dot(strip.across()), in_section.dot(strip.normal())};
+  const double low[] = {thing.from, thing.low, 0.0};
+  const double high[] = {thing.to, thing.high, thing.depth};
+  BoxHit hit{0.0, false};
+  double leave = kNever;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double one = (low[axis] - origin[axis]) / along[axis];
+    const double other = (high[axis] - origin[axis]) / along[axis];
+    if (std::min(one, other) > hit.distance_m) hit = {std::min(one, other), axis == 0};
+    leave = std::min(leave, std::max(one, other));
+  }
+  return hit.distance_m < leave ? hit : BoxHit{};
+}
+
+/// Things in the order of their middles, so that a ray looks only at those it passes.
+struct Row {
+  std::vector<StandOut> things;
+  double longest = 0.0;
+
+  explicit Row(std::vector<StandOut> all) : things(std::move(all)) {
+    std::stable_sort(things.begin(), things.end(), [](const auto& a, const auto& b) { return a.from < b.from; });
+    for (const StandOut& thing : things) longest = std::max(longest, thing.to - thing.from);
+  }
+
+  auto first_from(double s) const {
+    return std::lower_bound(things.begin(), things.end(), s,
+                            [](const StandOut& thing, double value) { return thing.from < value; });
+  }
+};
+
+}  // namespace
+
+AxisFacingShare::AxisFacingShare(const TunnelPlan& plan)
+    : begin_(plan.line.begin()), end_(plan.line.end()), lining_(tunnel_lining(plan)) {
+  constexpr int kPlaces = 24;
+  const double straight = (plan.line.bends() ? plan.line.bend_begin() : end_) - begin_;
+  for (int i = 0; i < kPlaces; ++i) places_.push_back(begin_ + straight * (0.2 + 0.6 * (i + 0.5) / kPlaces));
+  std::vector<TunnelStrip> surfaces = tunnel_road(plan);
+  surfaces.insert(surfaces.end(), lining_.begin(), lining_.end());
+  constexpr int kAzimuths = 180;
+  for (int line = 0; line < 16; ++line) {
+    const double elevation = (-15.0 + 2.0 * line) * std::numbers::pi / 180.0;
+    for (int i = 0; i < kAzimuths; ++i) {
+      const double azimuth = 2.0 * std::numbers::pi * (i + 0.37) / kAzimuths;  // never along an axis
+      Ray ray{{std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)},
+              kNever};
+      for (const TunnelStrip& strip : surfaces) {
+        ray.lining_m = std::min(ray.lining_m, distance_to_strip(strip, ray.direction));
+      }
+      rays_.push_back(ray);
+    }
+  }
+}
+
+double AxisFacingShare::of(const std::vector<StandOut>& stand_outs) const {
+  const Row row(stand_outs);
+  int returns = 0;
+  int facing = 0;
+  for (const double place : places_) {
+    for (const Ray& ray : rays_) {
+      const double along = ray.direction.x();
+      const double to_end = ((along > 0.0 ? end_ : begin_) - place) / along;  // beyond it there is nothing
+      const double reach = std::min({ray.lining_m, kReach_m, to_end});
+      const double other_end = place + reach * along;
+      BoxHit nearest;
+      const auto last = std::max(place, other_end);
+      for (auto it = row.first_from(std::min(place, other_end) - row.longest); it != row.things.end(); ++it) {
+        if (it->from > last) break;
+        const BoxHit hit = hit_box(*it, lining_[it->strip], place, ray.direction);
+        if (hit.distance_m < std::min(nearest.distance_m, reach)) nearest = hit;
+      }
+      const bool returns_something = nearest.distance_m < kNever || reach == ray.lining_m;
+      returns += returns_something ? 1 : 0;
+      facing += nearest.faces_axis ? 1 : 0;
+    }
+  }
+  return static_cast<double>(facing) / std::max(1, returns);
+}
+
+std::vector<StandOut> things_for_share(const TunnelPlan& plan, const std::vector<TunnelStrip>& lining,
+                                       const std::vector<StandOut>& ribs) {
+  if (plan.axis_facing <= 0.0) return {};
+  const AxisFacingShare share(plan);
+  const std::vector<StandOut> things = tunnel_things(plan, lining);
+  const auto scaled = [&](double factor) { return with_depths_scaled(things, factor); };
+  const auto share_at = [&](double factor) {
+    std::vector<StandOut> all = scaled(factor);
+    all.insert(all.end(), ribs.begin(), ribs.end());
+    return share.of(all);
+  };
+  double low = 0.0;
+  double high = 1.0;
+  const double least = share_at(low);
+  const double most = share_at(high);
+  if (least > plan.axis_facing || most < plan.axis_facing) {
+    throw std::invalid_argument("scene tunnel: axis_facing_percent is " + std::to_string(100.0 * plan.axis_facing) +
+                                "; with these ribs and this section allowed is " + std::to_string(100.0 * least) +
+                                " to " + std::to_string(100.0 * most));
+  }
+  constexpr int kHalvings = 9;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = (low + high) / 2.0;
+    (share_at(middle) < plan.axis_facing ? low : high) = middle;
+  }
+  return scaled(high);
+}
+
+}  // namespace plumbline
