@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace plumbline {
 namespace {
@@ -30,12 +32,25 @@ struct BoxHit {
   bool faces_axis = false;
 };
 
+/// A strip of the lining as the lidar has it before itself.
+struct Face {
+  explicit Face(const TunnelStrip& strip)
+      : across(strip.across()),
+        normal(strip.normal()),
+        lidar_across((Eigen::Vector2d(0.0, kLidarHeight_m) - strip.middle).dot(across)),
+        lidar_above((Eigen::Vector2d(0.0, kLidarHeight_m) - strip.middle).dot(normal)) {}
+
+  Eigen::Vector2d across;
+  Eigen::Vector2d normal;
+  double lidar_across;
+  double lidar_above;
+};
+
 /// A ray from a place s against a box, by its slabs.
-BoxHit hit_box(const StandOut& thing, const TunnelStrip& strip, double s, const Eigen::Vector3d& direction) {
-  const Eigen::Vector2d lidar = Eigen::Vector2d(0.0, kLidarHeight_m) - strip.middle;
+BoxHit hit_box(const StandOut& thing, const Face& face, double s, const Eigen::Vector3d& direction) {
   const Eigen::Vector2d in_section = direction.tail<2>();
-  const double origin[] = {s, lidar.dot(strip.across()), lidar.dot(strip.normal())};
-  const double along[] = {direction.x(), in_section.dot(strip.across()), in_section.dot(strip.normal())};
+  const double origin[] = {s, face.lidar_across, face.lidar_above};
+  const double along[] = {direction.x(), in_section.dot(face.across), in_section.dot(face.normal)};
   const double low[] = {thing.from, thing.low, 0.0};
   const double high[] = {thing.to, thing.high, thing.depth};
   BoxHit hit{0.0, false};
@@ -49,20 +64,43 @@ BoxHit hit_box(const StandOut& thing, const TunnelStrip& strip, double s, const 
   return hit.distance_m < leave ? hit : BoxHit{};
 }
 
-/// Things in the order of their middles, so that a ray looks only at those it passes.
-struct Row {
-  std::vector<StandOut> things;
-  double longest = 0.0;
-
-  explicit Row(std::vector<StandOut> all) : things(std::move(all)) {
-    std::stable_sort(things.begin(), things.end(), [](const auto& a, const auto& b) { return a.from < b.from; });
-    for (const StandOut& thing : things) longest = std::max(longest, thing.to - thing.from);
+/// Things in the order of their begins, so that a ray looks only at those it passes.
+class Row {
+ public:
+  Row(std::vector<StandOut> things, const std::vector<TunnelStrip>& lining)
+      : things_(std::move(things)), faces_(lining.begin(), lining.end()) {
+    std::stable_sort(things_.begin(), things_.end(), [](const auto& a, const auto& b) { return a.from < b.from; });
+    for (const StandOut& thing : things_) longest_ = std::max(longest_, thing.to - thing.from);
   }
 
-  auto first_from(double s) const {
-    return std::lower_bound(things.begin(), things.end(), s,
+  /// The first hit within reach of a ray from s, in the order in which the ray passes.
+  BoxHit first_hit(double s, const Eigen::Vector3d& direction, double reach_m) const {
+    BoxHit nearest;
+    const auto look_at = [&](const StandOut& thing) {
+      const BoxHit hit = hit_box(thing, faces_[thing.strip], s, direction);
+      if (hit.distance_m < std::min(nearest.distance_m, reach_m)) nearest = hit;
+      return s + std::min(nearest.distance_m, reach_m) * direction.x();  // nothing beyond counts
+    };
+    double limit = s + reach_m * direction.x();
+    if (direction.x() > 0.0) {
+      for (auto it = first_from(s - longest_); it != things_.end() && it->from <= limit; ++it) limit = look_at(*it);
+    } else {
+      for (auto it = first_from(s); it != things_.begin() && std::prev(it)->from >= limit - longest_; --it) {
+        limit = look_at(*std::prev(it));
+      }
+    }
+    return nearest;
+  }
+
+ private:
+  std::vector<StandOut>::const_iterator first_from(double s) const {
+    return std::lower_bound(things_.begin(), things_.end(), s,
                             [](const StandOut& thing, double value) { return thing.from < value; });
   }
+
+  std::vector<StandOut> things_;
+  std::vector<Face> faces_;
+  double longest_ = 0.0;
 };
 
 }  // namespace
@@ -90,7 +128,7 @@ AxisFacingShare::AxisFacingShare(const TunnelPlan& plan)
 }
 
 double AxisFacingShare::of(const std::vector<StandOut>& stand_outs) const {
-  const Row row(stand_outs);
+  const Row row(stand_outs, lining_);
   int returns = 0;
   int facing = 0;
   for (const double place : places_) {
@@ -98,14 +136,7 @@ double AxisFacingShare::of(const std::vector<StandOut>& stand_outs) const {
       const double along = ray.direction.x();
       const double to_end = ((along > 0.0 ? end_ : begin_) - place) / along;  // beyond it there is nothing
       const double reach = std::min({ray.lining_m, kReach_m, to_end});
-      const double other_end = place + reach * along;
-      BoxHit nearest;
-      const auto last = std::max(place, other_end);
-      for (auto it = row.first_from(std::min(place, other_end) - row.longest); it != row.things.end(); ++it) {
-        if (it->from > last) break;
-        const BoxHit hit = hit_box(*it, lining_[it->strip], place, ray.direction);
-        if (hit.distance_m < std::min(nearest.distance_m, reach)) nearest = hit;
-      }
+      const BoxHit nearest = row.first_hit(place, ray.direction, reach);
       const bool returns_something = nearest.distance_m < kNever || reach == ray.lining_m;
       returns += returns_something ? 1 : 0;
       facing += nearest.faces_axis ? 1 : 0;
