@@ -11,7 +11,8 @@ namespace plumbline {
 /// pipe flanges and arches, no two alike: the share of a VLP-16's returns from surfaces whose normal is within 60
 /// degrees of the axis, on average along the straight part (in the bend the walls ahead face the sensor, too). Free for
 /// driving: |y| <= width_m / 2 - 1 (section box) or |y| <= 0.4 width_m - 1 (section round), less rib_depth_m and three
-/// times roughness_m.
+/// times roughness_m; with things on the walls, at least |y| <= 0.28 width_m in a box and 0.18 width_m in a round one.
+/// How much at most can face along the axis follows from the section: 25 % but where it is narrow or low and wide.
 SceneInfo tunnel_scene();
 
 }  // namespace plumbline

@@ -16,35 +16,36 @@ constexpr double kLidarHeight_m = 1.5;
 constexpr double kReach_m = 100.0;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// Distance from the lidar to a strip of unlimited length along a ray.
-double distance_to_strip(const TunnelStrip& strip, const Eigen::Vector3d& direction) {
-  const Eigen::Vector2d in_section = direction.tail<2>();
-  const double approach = -in_section.dot(strip.normal());
-  if (approach <= 0.0) return kNever;
-  const Eigen::Vector2d lidar = Eigen::Vector2d(0.0, kLidarHeight_m) - strip.middle;
-  const double t = lidar.dot(strip.normal()) / approach;
-  const double v = (lidar + t * in_section).dot(strip.across());
-  return std::abs(v) <= strip.width / 2.0 + strip.overlap ? t : kNever;
-}
-
 struct BoxHit {
   double distance_m = kNever;
   bool faces_axis = false;
 };
 
-/// A strip of the lining as the lidar has it before itself.
+/// A strip as the lidar has it before itself.
 struct Face {
   explicit Face(const TunnelStrip& strip)
       : across(strip.across()),
         normal(strip.normal()),
+        half_width(strip.width / 2.0 + strip.overlap),
         lidar_across((Eigen::Vector2d(0.0, kLidarHeight_m) - strip.middle).dot(across)),
         lidar_above((Eigen::Vector2d(0.0, kLidarHeight_m) - strip.middle).dot(normal)) {}
 
   Eigen::Vector2d across;
   Eigen::Vector2d normal;
+  double half_width;
   double lidar_across;
   double lidar_above;
 };
+
+/// Distance from the lidar to a strip of unlimited length along a ray.
+double distance_to(const Face& face, const Eigen::Vector3d& direction) {
+  const Eigen::Vector2d in_section = direction.tail<2>();
+  const double approach = -in_section.dot(face.normal);
+  if (approach <= 0.0) return kNever;
+  const double distance = face.lidar_above / approach;
+  const double across = face.lidar_across + distance * in_section.dot(face.across);
+  return std::abs(across) <= face.half_width ? distance : kNever;
+}
 
 /// A ray from a place s against a box, by its slabs.
 BoxHit hit_box(const StandOut& thing, const Face& face, double s, const Eigen::Vector3d& direction) {
@@ -107,22 +108,21 @@ class Row {
 
 AxisFacingShare::AxisFacingShare(const TunnelPlan& plan)
     : begin_(plan.line.begin()), end_(plan.line.end()), lining_(tunnel_lining(plan)) {
-  constexpr int kPlaces = 24;
+  constexpr int kPlaces = 32;
   const double straight = (plan.line.bends() ? plan.line.bend_begin() : end_) - begin_;
   for (int i = 0; i < kPlaces; ++i) places_.push_back(begin_ + straight * (0.2 + 0.6 * (i + 0.5) / kPlaces));
   std::vector<TunnelStrip> surfaces = tunnel_road(plan);
   surfaces.insert(surfaces.end(), lining_.begin(), lining_.end());
-  constexpr int kAzimuths = 180;
-  for (int line = 0; line < 16; ++line) {
-    const double elevation = (-15.0 + 2.0 * line) * std::numbers::pi / 180.0;
-    for (int i = 0; i < kAzimuths; ++i) {
-      const double azimuth = 2.0 * std::numbers::pi * (i + 0.37) / kAzimuths;  // never along an axis
+  const std::vector<Face> faces(surfaces.begin(), surfaces.end());
+  constexpr int kAzimuths = kFans * 180;
+  for (int i = 0; i < kAzimuths; ++i) {
+    const double azimuth = 2.0 * std::numbers::pi * (i + 0.37) / kAzimuths;  // never along an axis
+    for (int line = 0; line < 16; ++line) {
+      const double elevation = (-15.0 + 2.0 * line) * std::numbers::pi / 180.0;
       Ray ray{{std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)},
               kNever};
-      for (const TunnelStrip& strip : surfaces) {
-        ray.lining_m = std::min(ray.lining_m, distance_to_strip(strip, ray.direction));
-      }
-      rays_.push_back(ray);
+      for (const Face& face : faces) ray.lining_m = std::min(ray.lining_m, distance_to(face, ray.direction));
+      fans_[static_cast<std::size_t>(i % kFans)].push_back(ray);
     }
   }
 }
@@ -131,8 +131,9 @@ double AxisFacingShare::of(const std::vector<StandOut>& stand_outs) const {
   const Row row(stand_outs, lining_);
   int returns = 0;
   int facing = 0;
-  for (const double place : places_) {
-    for (const Ray& ray : rays_) {
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const double place = places_[i];
+    for (const Ray& ray : fans_[i % kFans]) {
       const double along = ray.direction.x();
       const double to_end = ((along > 0.0 ? end_ : begin_) - place) / along;  // beyond it there is nothing
       const double reach = std::min({ray.lining_m, kReach_m, to_end});

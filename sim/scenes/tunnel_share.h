@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "sim/scenes/tunnel_things.h"
@@ -16,6 +17,9 @@ class AxisFacingShare {
   double of(const std::vector<StandOut>& stand_outs) const;
 
  private:
+  /// The azimuths are shared out among the places, so that few rays leave no gaps.
+  static constexpr int kFans = 8;
+
   struct Ray {
     Eigen::Vector3d direction;  ///< s, y, z
     double lining_m;            ///< to the smooth lining or road
@@ -25,7 +29,7 @@ class AxisFacingShare {
   double begin_;
   double end_;
   std::vector<TunnelStrip> lining_;
-  std::vector<Ray> rays_;
+  std::array<std::vector<Ray>, kFans> fans_;
 };
 
 /// The things at the depths that give the plan's share, ribs included.

@@ -19,7 +19,7 @@ struct WallThing {
 };
 
 // Leaves the free way of the scene's description.
-double deepest_on_wall(const TunnelPlan& plan) { return std::min(1.0, 0.44 * plan.half_width); }
+double deepest_on_wall(const TunnelPlan& plan) { return std::min(1.5, 0.44 * plan.half_width); }
 
 // Leaves the lamps and a head's height.
 double deepest_arch(const TunnelPlan& plan) { return std::min(deepest_on_wall(plan), 0.11 * plan.height); }
@@ -81,8 +81,8 @@ void append_all_round(std::vector<StandOut>& stand_outs, const std::vector<Tunne
 
 void append_wall_things(std::vector<StandOut>& things, const TunnelPlan& plan, const std::vector<TunnelStrip>& lining,
                         double side) {
-  constexpr double kClosest_m = 1.2;
-  constexpr double kFarthest_m = 3.2;
+  constexpr double kClosest_m = 1.0;
+  constexpr double kFarthest_m = 2.8;
   constexpr double kClearOfEnds_m = 1.0;
   RandomStream stream(plan.seed, side < 0.0 ? "tunnel/things/right" : "tunnel/things/left");
   double s = plan.line.begin() + stream.uniform(kClosest_m, kFarthest_m);
