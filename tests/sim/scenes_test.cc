@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <set>
 #include <stdexcept>
 
 #include "sim/ray_scene.h"
@@ -75,45 +74,6 @@ std::vector<Eigen::Vector3d> sphere_directions(int count) {  // Fibonacci lattic
     directions.emplace_back(r * std::cos(angle), r * std::sin(angle), z);
   }
   return directions;
-}
-
-std::vector<Eigen::Vector3d> vlp16_directions() {
-  std::vector<Eigen::Vector3d> directions;
-  for (int ring = 0; ring < 16; ++ring) {
-    const double elevation = (-15.0 + 2.0 * ring) * M_PI / 180.0;
-    for (int step = 0; step < 900; ++step) {
-      const double azimuth = (0.4 * step + 0.013) * M_PI / 180.0;
-      directions.emplace_back(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-                              std::sin(elevation));
-    }
-  }
-  return directions;
-}
-
-/// The face of a box that holds a point of its surface.
-Eigen::Vector3d box_normal(const World& world, int geom, const Eigen::Vector3d& point) {
-  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> world_from_geom(world.data().geom_xmat +
-                                                                                       9 * geom);
-  const Eigen::Map<const Eigen::Vector3d> centre(world.data().geom_xpos + 3 * geom);
-  const Eigen::Map<const Eigen::Vector3d> half(world.model().geom_size + 3 * geom);
-  const Eigen::Vector3d in_geom = world_from_geom.transpose() * (point - centre);
-  int axis = 0;
-  (half - in_geom.cwiseAbs()).cwiseAbs().minCoeff(&axis);
-  return world_from_geom.col(axis);
-}
-
-/// Of the returns within 100 m, the share from surfaces that face along the tunnel.
-double axis_facing_share(const World& world, const Eigen::Vector3d& place) {
-  int returns = 0;
-  int facing = 0;
-  for (const Eigen::Vector3d& direction : vlp16_directions()) {
-    const Hit hit = cast(world, place, direction);
-    if (hit.range_m < 0.0 || hit.range_m > 100.0) continue;
-    ++returns;
-    if (std::abs(box_normal(world, hit.geom, place + hit.range_m * direction).x()) > 0.5) ++facing;
-  }
-  EXPECT_GT(returns, 10000);
-  return static_cast<double>(facing) / returns;
 }
 
 /// The defaults; all at their smallest and at their largest; and each alone at either end.
@@ -330,54 +290,6 @@ TEST(Garage, LanesStayFreeInHallsOfAnySize) {
   for (double y = -6.5; y <= 6.5; y += 0.5) {
     for (const double x : {3.5, length - 3.5}) EXPECT_GE(clearance(world, {x, y, 1.2}), 1.1) << x << ", " << y;
   }
-}
-
-TEST(Tunnel, AlmostNothingFacesAlongIt) {
-  for (const double round : {0.0, 1.0}) {
-    const World world = make_world("tunnel", {{"round_section", round}}, 1);
-    for (const double x : {-33.0, -7.3, 0.0, 21.9, 33.0}) {
-      EXPECT_LT(axis_facing_share(world, {x, 0.0, 1.5}), 0.005) << "round " << round << " at x = " << x;
-    }
-  }
-}
-
-TEST(Tunnel, RibsFaceAlongIt) {
-  for (const double round : {0.0, 1.0}) {
-    const World world = make_world("tunnel", {{"round_section", round}, {"rib_spacing_m", 5}}, 1);
-    EXPECT_GT(axis_facing_share(world, {0.0, 0.0, 1.5}), 0.02) << "round " << round;
-  }
-}
-
-// The ends are out of a 100 m lidar's reach over the whole drive, and there is nothing beyond them.
-TEST(Tunnel, IsOpenAtFarEnds) {
-  const World world = make_world("tunnel", {}, 1);
-  for (const Eigen::Vector3d& waypoint : route_of("tunnel").waypoints) EXPECT_LE(std::abs(waypoint.x()) + 100.0, 135.0);
-  for (const double side : {-1.0, 1.0}) {
-    EXPECT_LT(cast(world, {0.0, 0.0, 1.5}, {side, 0.0, 0.0}).range_m, 0.0);
-    EXPECT_LT(cast(world, {side * 140.0, 0.0, 1.5}, -Eigen::Vector3d::UnitZ()).range_m, 0.0);
-  }
-}
-
-TEST(Tunnel, LetsNoRayThroughItsLining) {
-  for (const double round : {0.0, 1.0}) {
-    const World world = make_world("tunnel", {{"round_section", round}}, 3);
-    for (const Eigen::Vector3d& direction : sphere_directions(20000)) {
-      if (std::abs(direction.x()) > 0.99) continue;  // out of the ends
-      EXPECT_GE(cast(world, {1.3, 0.2, 1.4}, direction).range_m, 0.0) << direction.transpose();
-    }
-  }
-}
-
-// Neighbouring sections of wall differ in their looks alone: their faces are one plane to a tenth of a millimetre.
-TEST(Tunnel, SectionsAreFlush) {
-  const World world = make_world("tunnel", {}, 1);
-  std::set<int> sections;
-  for (double x = -50.0; x <= 50.0; x += 0.1) {
-    const Hit hit = cast(world, {x, 0.0, 0.7}, Eigen::Vector3d::UnitY());
-    EXPECT_NEAR(hit.range_m, 2.25, 1e-4);
-    sections.insert(world.material_of(hit.geom));
-  }
-  EXPECT_GE(sections.size(), 5U);
 }
 
 // The tessellation's faces lie up to 0.03 % of the radius inside the sphere.
