@@ -35,17 +35,23 @@ void add_ring(MjcfWriter& writer, const std::string& material, const Vector2d& i
   box({inner.x(), -inner.y()}, {outer.x(), inner.y()});
 }
 
-/// A place on a rectangle about the origin, `share` of the way round, and the yaw of the way outwards.
-std::pair<Vector2d, double> on_rectangle(const Vector2d& half, double share) {
-  const Vector2d corners[] = {
-      {half.x(), -half.y()}, {half.x(), half.y()}, {-half.x(), half.y()}, {-half.x(), -half.y()}};
+struct Place {
+  Vector2d at = Vector2d::Zero();
+  double yaw = 0.0;  ///< of the way outwards
+};
+
+/// A place on a rectangle about the origin, `share` of the way round.
+Place on_rectangle(const Vector2d& half, double share) {
+  const Vector2d corners[] = {{half.x(), -half.y()}, {half.x(), half.y()}, {-half.x(), half.y()}, -half};
   double left = share * 4.0 * (half.x() + half.y());
-  for (int side = 0; side < 4; ++side) {
-    const Vector2d leg = corners[(side + 1) % 4] - corners[side];
-    if (left <= leg.norm() || side == 3) return {corners[side] + leg.normalized() * left, side * M_PI / 2.0};
-    left -= leg.norm();
+  int side = 0;
+  for (; side < 3; ++side) {
+    const double length = (corners[side + 1] - corners[side]).norm();
+    if (left <= length) break;
+    left -= length;
   }
-  return {};
+  const Vector2d along = (corners[(side + 1) % 4] - corners[side]).normalized();
+  return {corners[side] + left * along, side * M_PI / 2.0};
 }
 
 void add_trees(Scenery& scenery, const HousePlan& plan) {

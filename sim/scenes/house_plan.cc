@@ -14,6 +14,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kFlightWidth_m = 1.1;
+constexpr double kTurnRadius_m = 0.4;
+constexpr double kTurn_m = 0.7;  // y where ways from the doors turn to the stairs
 
 double along_of(const HouseOpening& opening, const Wall& wall) {
   return (opening.middle - wall.from).dot((wall.to - wall.from).normalized());
@@ -37,37 +39,38 @@ class Ways {
   explicit Ways(const HousePlan& plan) : plan_(plan) {}
 
   void go(int level, double x, double y) { corners_.emplace_back(x, y, plan_.floor_of(level)); }
+  /// A flight with the places before and behind it.
   void climb(int level) {
-    const auto [foot, top] = flight_ends(level);
-    corners_.push_back(foot);
-    corners_.push_back(top);
+    for (const Vector3d& corner : flight_corners(level)) corners_.push_back(corner);
   }
   void descend(int level) {
-    const auto [foot, top] = flight_ends(level - 1);
-    corners_.push_back(top);
-    corners_.push_back(foot);
+    std::vector<Vector3d> corners = flight_corners(level - 1);
+    std::reverse(corners.begin(), corners.end());
+    corners_.insert(corners_.end(), corners.begin(), corners.end());
   }
   /// From the landing in the east through the rooms in the north (side 1) or south (-1) to the west of the hall.
   void through_rooms_west(int level, double side) {
-    go(level, plan_.door_x(), stairs_y());
+    go(level, plan_.door_x(), kTurn_m);
     go(level, plan_.door_x(), side * plan_.row_y());
     go(level, -plan_.door_x(), side * plan_.row_y());
-    go(level, -plan_.door_x(), stairs_y());
+    go(level, -plan_.door_x(), kTurn_m);
   }
   void through_rooms_east(int level, double side) {
-    go(level, -plan_.door_x(), stairs_y());
+    go(level, -plan_.door_x(), kTurn_m);
     go(level, -plan_.door_x(), side * plan_.row_y());
     go(level, plan_.door_x(), side * plan_.row_y());
-    go(level, plan_.door_x(), stairs_y());
+    go(level, plan_.door_x(), kTurn_m);
   }
   const std::vector<Vector3d>& corners() const { return corners_; }
 
  private:
-  double stairs_y() const { return plan_.foot_of_flight(0).y(); }
-  std::pair<Vector3d, Vector3d> flight_ends(int level) const {
+  std::vector<Vector3d> flight_corners(int level) const {
+    constexpr double kApproach_m = 0.8;
     const Flight flight = plan_.flight();
     const Vector3d foot = plan_.foot_of_flight(level);
-    return {foot - Vector3d(flight.tread_m, 0.0, 0.0), foot + Vector3d(flight.run_m(), 0.0, flight.rise_m)};
+    const Vector3d top = foot + Vector3d(flight.run_m(), 0.0, flight.rise_m);
+    return {foot - Vector3d(kApproach_m, 0.0, 0.0), foot - Vector3d(flight.tread_m, 0.0, 0.0), top,
+            top + Vector3d(kApproach_m, 0.0, 0.0)};
   }
 
   const HousePlan& plan_;
@@ -76,11 +79,10 @@ class Ways {
 
 Route all_floors(const HousePlan& plan) {
   Ways ways(plan);
-  const double stairs_y = plan.foot_of_flight(0).y();
   const auto basement_room = [&](bool out) {
     if (out) ways.go(0, 0.0, -plan.row_y());
-    ways.go(0, -plan.door_x(), out ? -plan.row_y() : stairs_y);
-    ways.go(0, -plan.door_x(), out ? stairs_y : -plan.row_y());
+    ways.go(0, -plan.door_x(), out ? -plan.row_y() : kTurn_m);
+    ways.go(0, -plan.door_x(), out ? kTurn_m : -plan.row_y());
     if (!out) ways.go(0, 0.0, -plan.row_y());
   };
   basement_room(true);
@@ -90,19 +92,19 @@ Route all_floors(const HousePlan& plan) {
     ways.climb(level);
   }
   // At the top first the rooms in the north, then those in the south.
-  ways.go(3, plan.door_x(), stairs_y);
+  ways.go(3, plan.door_x(), kTurn_m);
   ways.go(3, plan.door_x(), plan.row_y());
   ways.go(3, -plan.door_x(), plan.row_y());
   ways.go(3, -plan.door_x(), -plan.row_y());
   ways.go(3, plan.door_x(), -plan.row_y());
-  ways.go(3, plan.door_x(), stairs_y);
+  ways.go(3, plan.door_x(), kTurn_m);
   ways.descend(3);
   for (const int level : {2, 1}) {
     ways.through_rooms_east(level, -1.0);
     ways.descend(level);
   }
   basement_room(false);
-  return make_route("all_floors", ways.corners(), 0.35);
+  return make_route("all_floors", ways.corners(), kTurnRadius_m);
 }
 
 // East through the hall, back through the rooms in the north, across the hall, through those in the south, and back
@@ -123,7 +125,7 @@ Route first_floor(const HousePlan& plan) {
   ways.go(1, x, kWestward_m);
   ways.go(1, west, kWestward_m);
   ways.go(1, west, kEastward_m);
-  return make_route("first_floor", ways.corners(), 0.35, true);
+  return make_route("first_floor", ways.corners(), kTurnRadius_m, true);
 }
 
 }  // namespace
