@@ -117,17 +117,17 @@ RenderView view_of(int width, int height) {
   return view;
 }
 
-/// How much there is to see: corners, and those of wide views count more than those of a wall close by.
+/// How much there is to see: edges of things, and those of wide views count more than those of a wall close by. Over
+/// a plane the inverse of the depth is linear, so that it bends at edges alone.
 double interest(const RadianceImage& image) {
-  constexpr int kMostCorners = 2000;
-  constexpr double kApart_px = 6.0;
+  constexpr double kBend = 0.02;
   constexpr double kWide_m = 12.0;
-  cv::Mat1b grey;
-  cv::cvtColor(developed(image), grey, cv::COLOR_BGR2GRAY);
-  std::vector<cv::Point2f> corners;
-  cv::goodFeaturesToTrack(grey, corners, kMostCorners, 0.02, kApart_px);
-  const double depth = std::min<double>(quantile(image.depth_m, 0.5), kWide_m);
-  return static_cast<double>(corners.size()) * std::sqrt(depth);
+  const cv::Mat1f depth = cv::Mat1f(image.depth_m, true).reshape(1, image.height);
+  const cv::Mat1f inverse = 1.0F / depth;
+  cv::Mat1f bend;
+  cv::Laplacian(inverse, bend, CV_32F);
+  const int edges = cv::countNonZero(cv::abs(bend.mul(depth)) > kBend);
+  return edges * std::sqrt(std::min<double>(quantile(image.depth_m, 0.5), kWide_m));
 }
 
 RadianceImage photograph(Renderer& renderer, const Pose& world_from_camera) {
@@ -137,7 +137,7 @@ RadianceImage photograph(Renderer& renderer, const Pose& world_from_camera) {
 /// Of some places spread over the route's first half, the one from where the most is seen.
 double best_share(const World& world, const RayScene& rays, const Options& options) {
   constexpr int kCandidates = 10;
-  Renderer renderer(world, view_of(kWidth, kHeight), {.threads = 1, .depth = true, .colour = true});
+  Renderer renderer(world, view_of(kWidth, kHeight), {.threads = 1, .depth = true, .colour = false});
   double best = 0.0;
   double most = -1.0;
   for (int i = 0; i < kCandidates; ++i) {

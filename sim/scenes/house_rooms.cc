@@ -117,9 +117,9 @@ void furnish_side(MjcfWriter& writer, RandomStream& stream, const Side& side, co
     const bool fits = end <= side.end_m && is_free(openings, side, along, end, piece.tall);
     if (taken && fits) {
       piece.add(writer, stream, frame_of(side.wall) * upright_frame({along + piece.width_m / 2.0, 0.0, 0.0}, 0.0));
-      along = end + stream.uniform(0.05, 0.6);
+      along = end + stream.uniform(0.1, 1.2);
     } else {
-      along += taken ? 0.3 : 1.0;
+      along += taken ? 0.3 : 1.8;
     }
   }
 }
