@@ -134,34 +134,36 @@ RadianceImage photograph(Renderer& renderer, const Pose& world_from_camera) {
   return renderer.render({.world_from_camera = world_from_camera, .world_from_body = world_from_camera});
 }
 
-/// Of some places spread over the route's first half, the one from where the most is seen.
-double best_share(const World& world, const RayScene& rays, const Options& options) {
-  constexpr int kCandidates = 10;
+/// Where the most is seen of some places spread over the route's first half, ahead or half to a side.
+Options aimed(const World& world, const RayScene& rays, Options options) {
+  constexpr int kPlaces = 7;
   Renderer renderer(world, view_of(kWidth, kHeight), {.threads = 1, .depth = true, .colour = false});
-  double best = 0.0;
+  Options best = options;
   double most = -1.0;
-  for (int i = 0; i < kCandidates; ++i) {
-    const double share = (i + 0.3) / (2.0 * kCandidates);
-    const Station station = station_on(world.routes()[options.route], share);
-    const double seen = interest(photograph(renderer, camera_at(station, rays, options)));
-    if (seen > most) {
+  for (int i = 0; i < kPlaces; ++i) {
+    options.share = (i + 0.3) / (2.0 * kPlaces);
+    const Station station = station_on(world.routes()[options.route], options.share);
+    for (const double yaw_deg : {0.0, 40.0, -40.0}) {
+      options.yaw_deg = yaw_deg;
+      const double seen = interest(photograph(renderer, camera_at(station, rays, options)));
+      if (seen <= most) continue;
       most = seen;
-      best = share;
+      best = options;
     }
   }
   return best;
 }
 
-void draw_scene(const SceneInfo& scene, const Options& options) {
-  World world = World::from_scene(build_scene(scene.name, options.values, options.seed), options.seed);
+void draw_scene(const SceneInfo& scene, const Options& asked) {
+  World world = World::from_scene(build_scene(scene.name, asked.values, asked.seed), asked.seed);
   world.set_light_level(scene.usual_lux);
   const RayScene rays(world);
-  if (world.routes().size() <= options.route) {
+  if (world.routes().size() <= asked.route) {
     throw std::invalid_argument("scene " + scene.name + " has only " + std::to_string(world.routes().size()) +
                                 " routes");
   }
-  const double share = options.share < 0.0 ? best_share(world, rays, options) : options.share;
-  const Station station = station_on(world.routes()[options.route], share);
+  const Options options = asked.share < 0.0 ? aimed(world, rays, asked) : asked;
+  const Station station = station_on(world.routes()[options.route], options.share);
   // Twice as large and then halved, for smooth edges.
   Renderer renderer(world, view_of(2 * kWidth, 2 * kHeight), {.threads = 1, .depth = false, .colour = true});
   cv::Mat3b picture;
@@ -200,7 +202,7 @@ int main(int argc, char** argv) {
                  "how much of the route lies behind, 0 to 1; without it, where the most is seen");
   app.add_option("--route", options.route, "number of the route, from 0");
   app.add_option("--seed", options.seed, "of the world");
-  app.add_option("--yaw-deg", options.yaw_deg, "to the left of the route");
+  app.add_option("--yaw-deg", options.yaw_deg, "to the left of the route; needs --at");
   app.add_option("--pitch-deg", options.pitch_deg, "down");
   app.add_option("--parameter", options.values, "NAME VALUE of the scene, as in world.parameters");
   CLI11_PARSE(app, argc, argv);
