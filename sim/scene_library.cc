@@ -16,6 +16,7 @@
 #include "sim/scenes/ground_and_wall.h"
 #include "sim/scenes/hall.h"
 #include "sim/scenes/highway.h"
+#include "sim/scenes/house.h"
 #include "sim/scenes/lawn.h"
 #include "sim/scenes/lobby.h"
 #include "sim/scenes/orchard.h"
@@ -71,11 +72,11 @@ SceneValues complete_values(const SceneInfo& scene, const SceneValues& overrides
 
 const std::vector<SceneInfo>& scene_library() {
   static const std::vector<SceneInfo> scenes = {
-      garage_scene(),   corridor_scene(),        tunnel_scene(),         hall_scene(),          lobby_scene(),
-      building_scene(), conference_room_scene(), dark_room_scene(),      striped_walls_scene(), sphere_scene(),
-      flat_scene(),     ground_and_wall_scene(), street_scene(),         campus_scene(),        highway_scene(),
-      bridge_scene(),   orchard_scene(),         vegetated_road_scene(), trail_scene(),         lawn_scene(),
-      shed_site_scene()};
+      garage_scene(),   corridor_scene(), tunnel_scene(),          hall_scene(),           lobby_scene(),
+      building_scene(), house_scene(),    conference_room_scene(), dark_room_scene(),      striped_walls_scene(),
+      sphere_scene(),   flat_scene(),     ground_and_wall_scene(), street_scene(),         campus_scene(),
+      highway_scene(),  bridge_scene(),   orchard_scene(),         vegetated_road_scene(), trail_scene(),
+      lawn_scene(),     shed_site_scene()};
   return scenes;
 }
 

@@ -27,7 +27,7 @@ struct Options {
   std::vector<std::string> names;
   SceneValues values;
   std::uint64_t seed = 1;
-  double share = -1.0;  // of the route that lies behind; negative: the scene's own
+  double share = -1.0;  // of the route that lies behind; negative: where the most is seen
   std::size_t route = 0;
   double yaw_deg = 0.0;  // to the left of the route's direction
   double pitch_deg = 4.0;
@@ -72,45 +72,103 @@ float quantile(std::vector<float> values, double share) {
   return *nth;
 }
 
-/// sRGB, exposed so that the picture's upper tenth is bright, highlights rolled off.
+/// What an exponent makes of the picture's mean.
+double mean_tone(const std::vector<float>& luminance, float white, double exponent) {
+  double sum = 0.0;
+  for (const float light : luminance) sum += std::pow(std::min(1.0F, light / white), exponent);
+  return sum / static_cast<double>(luminance.size());
+}
+
+/// The exponent, near a display's 1 / 2.2, at which a picture is on average neither dark nor pale.
+double tone_exponent(const std::vector<float>& luminance, float white) {
+  constexpr double kMeanTone = 0.42;
+  double low = 0.33;
+  double high = 0.9;
+  for (int i = 0; i < 12; ++i) {
+    const double exponent = (low + high) / 2.0;
+    (mean_tone(luminance, white, exponent) > kMeanTone ? low : high) = exponent;
+  }
+  return (low + high) / 2.0;
+}
+
+/// Exposed so that all but lamps and the brightest spots keep their detail.
 cv::Mat3b developed(const RadianceImage& image) {
-  const float bright = std::max(quantile(image.luminance, 0.9), 1e-9F);
+  const float white = std::max(quantile(image.luminance, 0.995), 1e-9F);
+  const double exponent = tone_exponent(image.luminance, white);
   cv::Mat3b picture(image.height, image.width);
   for (int v = 0; v < image.height; ++v) {
     for (int u = 0; u < image.width; ++u) {
       const auto pixel = static_cast<std::size_t>(v * image.width + u);
-      for (int c = 0; c < 3; ++c) {
-        const float light =
-            image.rgb.empty() ? image.luminance[pixel] : image.rgb[3 * pixel + static_cast<std::size_t>(c)];
-        const float tone = 1.0F - std::exp(-1.5F * light / bright);
-        picture(v, u)[2 - c] = cv::saturate_cast<std::uint8_t>(255.0F * std::pow(tone, 1.0F / 2.2F));
+      for (std::size_t c = 0; c < 3; ++c) {
+        const float light = std::clamp(image.rgb[3 * pixel + c] / white, 0.0F, 1.0F);
+        picture(v, u)[static_cast<int>(2 - c)] = cv::saturate_cast<std::uint8_t>(255.0 * std::pow(light, exponent));
       }
     }
   }
   return picture;
 }
 
-void draw_scene(const SceneInfo& scene, const Options& options) {
-  World world = World::from_scene(build_scene(scene.name, options.values, options.seed), options.seed);
-  world.set_light_level(scene.usual_lux);
-  const RayScene rays(world);
-  if (world.routes().size() <= options.route) {
-    throw std::invalid_argument("scene " + scene.name + " has only " + std::to_string(world.routes().size()) +
-                                " routes");
-  }
-  const double share = options.share < 0.0 ? 0.1 : options.share;
-  const Station station = station_on(world.routes()[options.route], share);
-  // Twice as large and then halved, for smooth edges.
-  RenderView view{.width = 2 * kWidth, .height = 2 * kHeight};
+RenderView view_of(int width, int height) {
+  RenderView view{.width = width, .height = height};
   view.fx = view.fy = 0.62 * view.width;
   view.cx = view.width / 2.0 - 0.5;
   view.cy = view.height / 2.0 - 0.5;
   view.far_m = 400.0;
-  Renderer renderer(world, view, {.threads = 1, .depth = false, .colour = true});
-  const Pose world_from_camera = camera_at(station, rays, options);
+  return view;
+}
+
+/// How much there is to see: edges of things, and those of wide views count more than those of a wall close by. Over
+/// a plane the inverse of the depth is linear, so that it bends at edges alone.
+double interest(const RadianceImage& image) {
+  constexpr double kBend = 0.02;
+  constexpr double kWide_m = 12.0;
+  const cv::Mat1f depth = cv::Mat1f(image.depth_m, true).reshape(1, image.height);
+  const cv::Mat1f inverse = 1.0F / depth;
+  cv::Mat1f bend;
+  cv::Laplacian(inverse, bend, CV_32F);
+  const int edges = cv::countNonZero(cv::abs(bend.mul(depth)) > kBend);
+  return edges * std::sqrt(std::min<double>(quantile(image.depth_m, 0.5), kWide_m));
+}
+
+RadianceImage photograph(Renderer& renderer, const Pose& world_from_camera) {
+  return renderer.render({.world_from_camera = world_from_camera, .world_from_body = world_from_camera});
+}
+
+/// Where the most is seen of some places spread over the route's first half, ahead or half to a side.
+Options aimed(const World& world, const RayScene& rays, Options options) {
+  constexpr int kPlaces = 7;
+  Renderer renderer(world, view_of(kWidth, kHeight), {.threads = 1, .depth = true, .colour = false});
+  Options best = options;
+  double most = -1.0;
+  for (int i = 0; i < kPlaces; ++i) {
+    options.share = (i + 0.3) / (2.0 * kPlaces);
+    const Station station = station_on(world.routes()[options.route], options.share);
+    for (const double yaw_deg : {0.0, 40.0, -40.0}) {
+      options.yaw_deg = yaw_deg;
+      const double seen = interest(photograph(renderer, camera_at(station, rays, options)));
+      if (seen <= most) continue;
+      most = seen;
+      best = options;
+    }
+  }
+  return best;
+}
+
+void draw_scene(const SceneInfo& scene, const Options& asked) {
+  World world = World::from_scene(build_scene(scene.name, asked.values, asked.seed), asked.seed);
+  world.set_light_level(scene.usual_lux);
+  const RayScene rays(world);
+  if (world.routes().size() <= asked.route) {
+    throw std::invalid_argument("scene " + scene.name + " has only " + std::to_string(world.routes().size()) +
+                                " routes");
+  }
+  const Options options = asked.share < 0.0 ? aimed(world, rays, asked) : asked;
+  const Station station = station_on(world.routes()[options.route], options.share);
+  // Twice as large and then halved, for smooth edges.
+  Renderer renderer(world, view_of(2 * kWidth, 2 * kHeight), {.threads = 1, .depth = false, .colour = true});
   cv::Mat3b picture;
-  cv::resize(developed(renderer.render({.world_from_camera = world_from_camera, .world_from_body = world_from_camera})),
-             picture, {kWidth, kHeight}, 0, 0, cv::INTER_AREA);
+  cv::resize(developed(photograph(renderer, camera_at(station, rays, options))), picture, {kWidth, kHeight}, 0, 0,
+             cv::INTER_AREA);
   const fs::path file = options.folder / (scene.name + ".jpg");
   constexpr std::uintmax_t kMaxBytes = 40'000;
   for (int quality = 85; quality >= 40; quality -= 5) {
@@ -140,10 +198,11 @@ int main(int argc, char** argv) {
   CLI::App app("Draws a picture of each scene");
   app.add_option("FOLDER", options.folder, "where to")->required();
   app.add_option("NAME", options.names, "scenes; all without any");
-  app.add_option("--at", options.share, "how much of the route lies behind, 0 to 1");
+  app.add_option("--at", options.share,
+                 "how much of the route lies behind, 0 to 1; without it, where the most is seen");
   app.add_option("--route", options.route, "number of the route, from 0");
   app.add_option("--seed", options.seed, "of the world");
-  app.add_option("--yaw-deg", options.yaw_deg, "to the left of the route");
+  app.add_option("--yaw-deg", options.yaw_deg, "to the left of the route; needs --at");
   app.add_option("--pitch-deg", options.pitch_deg, "down");
   app.add_option("--parameter", options.values, "NAME VALUE of the scene, as in world.parameters");
   CLI11_PARSE(app, argc, argv);
