@@ -16,7 +16,7 @@ header{display:flex;flex-wrap:wrap;align-items:baseline;gap:6px 14px}
 h1{font-size:28px;line-height:1.2;margin:0;overflow-wrap:anywhere}
 h2{font-size:19px;margin:40px 0 4px}
 p.note{margin:0 0 12px;color:var(--soft);max-width:80ch}
-.badge{font-weight:600;font-size:14px;padding:2px 12px;border-radius:99px;color:#fff;background:var(--soft)}
+.badge{white-space:nowrap;font-weight:600;font-size:14px;padding:2px 12px;border-radius:99px;color:#fff;background:var(--soft)}
 .badge.ok{background:#1f7f63}.badge.failed{background:#a66c00}.badge.lost,.badge.error{background:#b81d3a}
 .sub{color:var(--soft)}
 .tiles{display:grid;grid-template-columns:repeat(5,minmax(0,1fr));gap:10px;margin:20px 0 0}
@@ -44,7 +44,8 @@ svg text{font-size:13px;fill:var(--soft);font-family:inherit}
 .axis{stroke:var(--soft);stroke-width:1;vector-effect:non-scaling-stroke}
 .grid{stroke:var(--grid);stroke-width:1;vector-effect:non-scaling-stroke}
 .line{fill:none;stroke-width:1.4;stroke-linecap:round;stroke-linejoin:round;vector-effect:non-scaling-stroke}
-.c0{--hue:var(--c0)}.c1{--hue:var(--c1)}.c2{--hue:var(--c2)}.estimate{--hue:var(--estimate)}.warn{--hue:var(--warn)}
+.c0{--hue:var(--c0)}.c1{--hue:var(--c1)}.c2{--hue:var(--c2)}.c3{--hue:var(--c3)}.c4{--hue:var(--c4)}.c5{--hue:var(--c5)}
+.estimate{--hue:var(--estimate)}.warn{--hue:var(--warn)}
 .truth{--hue:var(--ink)}.solved{--hue:var(--solved)}.partial{--hue:var(--partial)}.bypassed{--hue:var(--bypassed)}
 .nothing{--hue:var(--nothing)}.bar{--hue:var(--c0)}
 .line{stroke:var(--hue)}rect{fill:var(--hue)}
