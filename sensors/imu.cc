@@ -1,5 +1,6 @@
 #include "sensors/imu.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -63,6 +64,26 @@ NoiseFigures acting(const ImuEffects& effects, const NoiseFigures& figures) {
           effects.random_walk ? figures.random_walk : 0.0};
 }
 
+/// Adds the mean over a time without a knot, by three-point Gauss-Legendre: exact for fifth-degree motion.
+void add_smooth_piece(const Trajectory& trajectory, double from_s, double to_s, const Eigen::Vector3d& position_in_body,
+                      double share, ImuSample& sample) {
+  const double node = std::sqrt(0.6);
+  const double nodes[3] = {-node, 0.0, node};
+  const double weights[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+  const double middle_s = 0.5 * (from_s + to_s);
+  const double half_s = 0.5 * (to_s - from_s);
+  for (int i = 0; i < 3; ++i) {
+    const MotionState s = trajectory.at_seconds(middle_s + half_s * nodes[i]);
+    const Eigen::Vector3d force_in_world = s.acceleration_in_world + kGravity * Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d& rate = s.angular_rate_in_body;
+    const Eigen::Vector3d euler = s.angular_acceleration_in_body.cross(position_in_body);
+    const Eigen::Vector3d centripetal = rate.cross(rate.cross(position_in_body));
+    sample.angular_rate += share * weights[i] * rate;
+    sample.specific_force +=
+        share * weights[i] * (s.world_from_body.rotation.conjugate() * force_in_world + euler + centripetal);
+  }
+}
+
 }  // namespace
 
 NoiseFigures gyro_figures(const ImuModel& model) {
@@ -77,23 +98,14 @@ NoiseFigures accel_figures(const ImuModel& model) {
 
 ImuSample exact_sample(const Trajectory& trajectory, std::int64_t start_ns, std::int64_t end_ns,
                        const Eigen::Vector3d& position_in_body) {
-  // Three-point Gauss-Legendre: exact for fifth-degree motion within the interval.
-  const double half_width = std::sqrt(0.6);
-  const double nodes[3] = {-half_width, 0.0, half_width};
-  const double weights[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
-  const double middle = 0.5e-9 * static_cast<double>(start_ns + end_ns);
-  const double half = 0.5e-9 * static_cast<double>(end_ns - start_ns);
+  const double start_s = static_cast<double>(start_ns) * 1e-9;
+  const double end_s = static_cast<double>(end_ns) * 1e-9;
   ImuSample sample;
   sample.stamp_ns = end_ns;
-  for (int i = 0; i < 3; ++i) {
-    const MotionState s = trajectory.at_seconds(middle + half * nodes[i]);
-    const Eigen::Vector3d force_in_world = s.acceleration_in_world + kGravity * Eigen::Vector3d::UnitZ();
-    const Eigen::Vector3d& rate = s.angular_rate_in_body;
-    const Eigen::Vector3d euler = s.angular_acceleration_in_body.cross(position_in_body);
-    const Eigen::Vector3d centripetal = rate.cross(rate.cross(position_in_body));
-    sample.angular_rate += weights[i] * rate;
-    sample.specific_force +=
-        weights[i] * (s.world_from_body.rotation.conjugate() * force_in_world + euler + centripetal);
+  for (double from_s = start_s; from_s < end_s;) {
+    const double to_s = std::min(trajectory.knot_after_s(from_s), end_s);
+    add_smooth_piece(trajectory, from_s, to_s, position_in_body, (to_s - from_s) / (end_s - start_s), sample);
+    from_s = to_s;
   }
   return sample;
 }

@@ -46,7 +46,8 @@ class Imu {
 NoiseFigures gyro_figures(const ImuModel& model);
 NoiseFigures accel_figures(const ImuModel& model);
 
-/// Mean specific force and angular rate over an interval at a point of the body, in B, by Gauss-Legendre quadrature.
+/// Mean specific force and angular rate over an interval at a point of the body, in B, by Gauss-Legendre quadrature
+/// between the trajectory's knots, across which it is not smooth.
 /// Off the body's origin the force holds the Euler and the centripetal acceleration.
 ImuSample exact_sample(const Trajectory& trajectory, std::int64_t start_ns, std::int64_t end_ns,
                        const Eigen::Vector3d& position_in_body = Eigen::Vector3d::Zero());

@@ -9,7 +9,7 @@ constexpr std::ptrdiff_t kReach = 10;  // over four standard deviations
 
 }  // namespace
 
-BandLimiter::BandLimiter() {
+BandLimiter::BandLimiter(std::int64_t first_ns) : first_ns_(first_ns) {
   // The transform of a Gaussian of deviation s is exp(-2 (pi s f)^2), and -3 dB is 1 / sqrt(2).
   const double sigma_s = std::sqrt(std::log(2.0) / 4.0) / (M_PI * kCutoff_hz);
   double sum = 0.0;
@@ -44,7 +44,7 @@ void BandLimiter::push(const Channels& channels) {
   for (std::size_t k = 0; k < size; ++k)
     mean += kernel_[k] * at(pushed_ - 1 - 2 * kReach + static_cast<std::int64_t>(k));
   const Eigen::Vector4d q = mean.tail<4>().normalized();
-  knots_.push_back({middle * kStep_ns, {Eigen::Quaterniond(q[3], q[0], q[1], q[2]), mean.head<3>()}});
+  knots_.push_back({first_ns_ + middle * kStep_ns, {Eigen::Quaterniond(q[3], q[0], q[1], q[2]), mean.head<3>()}});
 }
 
 Trajectory BandLimiter::finish() {

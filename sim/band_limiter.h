@@ -17,7 +17,12 @@ class BandLimiter {
   static constexpr double kStep_s = 1e-9 * static_cast<double>(kStep_ns);
   static constexpr double kCutoff_hz = 60.0;
 
-  BandLimiter();
+  /// A motion that is under way at time 0 is added from so much earlier: a trajectory rests before its first knot and
+  /// begins without acceleration, which by then has worn off.
+  static constexpr std::int64_t kLead_ns = 100'000'000;
+
+  /// @param first_ns  stamp of the first pose
+  explicit BandLimiter(std::int64_t first_ns = 0);
 
   /// The next pose, kStep_ns after the one before.
   void add(const Pose& pose);
@@ -28,6 +33,7 @@ class BandLimiter {
   using Channels = Eigen::Matrix<double, 7, 1>;
   void push(const Channels& channels);
 
+  std::int64_t first_ns_;
   std::vector<double> kernel_;    // symmetric, its sum is 1
   std::vector<Channels> recent_;  // the kernel's length, as a ring
   std::int64_t pushed_ = 0;

@@ -16,12 +16,11 @@ constexpr std::int64_t kStep_ns = 2'000'000;
 }  // namespace
 
 Trajectory mounted_on(const Trajectory& world_from_vehicle, const Pose& vehicle_from_pack) {
-  const std::int64_t start_ns = world_from_vehicle.start_ns();
-  const std::int64_t duration_ns = world_from_vehicle.end_ns() - start_ns;
   const std::int64_t knot_ns = std::min(kKnot_ns, world_from_vehicle.knot_ns());
   std::vector<PoseTrack::Stamped> poses;
-  for (std::int64_t stamp_ns = 0; stamp_ns <= duration_ns; stamp_ns += knot_ns) {
-    poses.push_back({stamp_ns, world_from_vehicle.pose(start_ns + stamp_ns) * vehicle_from_pack});
+  for (std::int64_t stamp_ns = world_from_vehicle.start_ns(); stamp_ns <= world_from_vehicle.end_ns();
+       stamp_ns += knot_ns) {
+    poses.push_back({stamp_ns, world_from_vehicle.pose(stamp_ns) * vehicle_from_pack});
   }
   return Trajectory(poses);
 }

@@ -9,7 +9,7 @@
 
 namespace plumbline {
 
-/// The motion of a sensor pack fixed to a moving vehicle, its stamps counted from the motion's start. Between knots
+/// The motion of a sensor pack fixed to a moving vehicle, from the vehicle's first knot to its last. Between knots
 /// 10 ms apart, or as close as the vehicle's own where those are evenly closer, the pack's own spline is the truth, so
 /// that every sensor on it sees one and the same motion.
 Trajectory mounted_on(const Trajectory& world_from_vehicle, const Pose& vehicle_from_pack);
@@ -19,7 +19,7 @@ Trajectory mounted_on(const Trajectory& world_from_vehicle, const Pose& vehicle_
 /// geoms, whose number would otherwise be paid for in every step.
 class RigDriver {
  public:
-  /// The trajectory must outlive the driver and start at stamp 0.
+  /// The trajectory must outlive the driver; the track begins at stamp 0.
   explicit RigDriver(const Trajectory& world_from_body);
   RigDriver(const RigDriver&) = delete;
   RigDriver& operator=(const RigDriver&) = delete;

@@ -1,6 +1,7 @@
 #include "sim/trajectory.h"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 namespace plumbline {
@@ -58,6 +59,11 @@ std::int64_t Trajectory::knot_ns() const {
   const auto legs = static_cast<std::int64_t>(times_s_.size()) - 1;
   const std::int64_t mean_ns = (end_ns_ - start_ns_) / legs;
   return std::max<std::int64_t>((mean_ns + kMillisecond_ns / 2) / kMillisecond_ns, 1) * kMillisecond_ns;
+}
+
+double Trajectory::knot_after_s(double time_s) const {
+  const auto after = std::upper_bound(times_s_.begin(), times_s_.end(), time_s);
+  return after == times_s_.end() ? std::numeric_limits<double>::infinity() : *after;
 }
 
 MotionState Trajectory::at_seconds(double time_s) const {

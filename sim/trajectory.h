@@ -25,10 +25,13 @@ class Trajectory {
   /// @throws std::invalid_argument for fewer than four poses or stamps that do not increase.
   explicit Trajectory(const std::vector<PoseTrack::Stamped>& poses);
 
+  /// A motion that is under way at time 0 starts before it.
   std::int64_t start_ns() const { return start_ns_; }
   std::int64_t end_ns() const { return end_ns_; }
   /// The mean distance between knots, rounded to whole milliseconds and at least one.
   std::int64_t knot_ns() const;
+  /// The first knot after a time, beyond which the acceleration goes on with another slope; infinity after the last.
+  double knot_after_s(double time_s) const;
   MotionState at(std::int64_t stamp_ns) const { return at_seconds(static_cast<double>(stamp_ns) * 1e-9); }
   MotionState at_seconds(double time_s) const;
   Pose pose(std::int64_t stamp_ns) const { return at(stamp_ns).world_from_body; }

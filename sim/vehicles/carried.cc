@@ -54,8 +54,8 @@ Trajectory carry(const MotionConfig& config, const World& world, std::uint64_t s
   const Base base = base_of(config, world);
   const HandWander wander(config.hand_wander_deg, seed);
   HandSpin spin(config, spin_shares(base), seed);
-  BandLimiter motion;
-  for (std::int64_t ns = 0; ns <= base.trajectory.end_ns(); ns += BandLimiter::kStep_ns) {
+  BandLimiter motion(-BandLimiter::kLead_ns);
+  for (std::int64_t ns = -BandLimiter::kLead_ns; ns <= base.trajectory.end_ns(); ns += BandLimiter::kStep_ns) {
     const double time_s = 1e-9 * static_cast<double>(ns);
     const double effort = base.effort_at(time_s);
     const StepMotion step = steps.at(time_s, effort);

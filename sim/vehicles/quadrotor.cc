@@ -43,7 +43,8 @@ Trajectory fly(const MotionConfig& config, const World& world, const RayScene& /
   const FlightState start = reference.at(0.0);
   RotorCraft craft(design, {start.attitude, start.position});
   Wind wind(config.wind_mps, seed);
-  BandLimiter motion;
+  BandLimiter motion(-BandLimiter::kLead_ns);
+  constexpr std::int64_t kLead = BandLimiter::kLead_ns / BandLimiter::kStep_ns;
   const auto hover = static_cast<std::int64_t>(kHover_s / kStep_s);
   const auto steps = static_cast<std::int64_t>(reference.duration_s() / kStep_s) + hover;
   for (std::int64_t i = -hover; i <= steps; ++i) {
@@ -54,7 +55,7 @@ Trajectory fly(const MotionConfig& config, const World& world, const RayScene& /
       throw std::invalid_argument("motion: the quadrotor cannot follow its path after " + std::to_string(time_s) +
                                   " s; lower speed_mps, acceleration_mps2, lateral_acceleration_mps2 or wind_mps");
     }
-    if (i >= 0) motion.add({now.attitude, now.position});
+    if (i >= -kLead) motion.add({now.attitude, now.position});
     craft.step(track(design, now, wanted), wind.next());
   }
   return motion.finish();

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "scenarios/catalogue.h"
@@ -12,76 +11,19 @@
 #include "sim/ray_scene.h"
 #include "sim/renderer.h"
 #include "sim/scene_library.h"
+#include "tools/verify/photon_transfer.h"
 
 namespace plumbline {
 namespace {
 
-/// A flat field's mean and temporal variance, from the difference of a pair of images, as EMVA 1288 measures them.
-struct FlatField {
-  double mean = 0.0;      // 10-bit counts
-  double variance = 0.0;  // of one image, quantisation taken off
-};
-
-FlatField flat_field(const SensorChip& chip, double gain, double electrons, std::uint64_t seed) {
-  constexpr int kSide = 256;
-  const std::vector<float> light(kSide * kSide, static_cast<float>(electrons));
-  const ExposureSettings settings{1e-3, gain};
-  const RawImage a = read_out(chip, settings, {}, light, kSide, kSide, seed);
-  const RawImage b = read_out(chip, settings, {}, light, kSide, kSide, seed ^ 0x9e3779b97f4a7c15ULL);
-  FlatField field;
-  for (std::size_t i = 0; i < a.counts.size(); ++i) {
-    const double difference = static_cast<double>(a.counts[i]) - b.counts[i];
-    field.mean += 0.5 * (a.counts[i] + b.counts[i]);
-    field.variance += 0.5 * difference * difference;
-  }
-  const auto n = static_cast<double>(a.counts.size());
-  field.mean /= n;
-  field.variance = field.variance / n - 1.0 / 12.0;
-  return field;
-}
-
-struct PhotonTransfer {
-  double electrons_per_count = 0.0;
-  double read_noise_electrons = 0.0;
-  double full_well_electrons = 0.0;
-};
-
-/// Least squares of variance over mean up to 70 % of saturation, which is where the variance is greatest.
-PhotonTransfer measure(const SensorChip& chip, double gain) {
-  constexpr int kLevels = 60;
-  const FlatField dark = flat_field(chip, gain, 0.0, 1);
-  std::vector<FlatField> fields;
-  for (int i = 1; i <= kLevels; ++i) {
-    const double electrons = 1.2 * chip.full_well_electrons * i / kLevels;
-    fields.push_back(flat_field(chip, gain, electrons, static_cast<std::uint64_t>(100 + i)));
-  }
-  const auto saturation = std::max_element(
-      fields.begin(), fields.end(), [](const FlatField& a, const FlatField& b) { return a.variance < b.variance; });
-  double products = 0.0;
-  double squares = 0.0;
-  for (const FlatField& field : fields) {
-    const double signal = field.mean - dark.mean;
-    if (signal > 0.7 * (saturation->mean - dark.mean)) continue;
-    products += signal * (field.variance - dark.variance);
-    squares += signal * signal;
-  }
-  const double electrons_per_count = squares / products;
-  return {electrons_per_count, std::sqrt(dark.variance) * electrons_per_count,
-          (saturation->mean - dark.mean) * electrons_per_count};
-}
-
 TEST(CatalogueCameras, PhotonTransferGivesBackGainReadNoiseAndFullWell) {
   for (const std::string& name : catalogue_names("camera")) {
-    SensorChip chip = catalogue_camera(name).chip;
-    chip.dark_current_electrons_per_s = 0.0;  // EMVA extrapolates to no exposure
-    // The well's fullness at 70 % of the converter's range.
-    const double gain = 0.7 * 1000.0 * 0.25 * chip.electrons_per_dn / chip.full_well_electrons;
-    const PhotonTransfer found = measure(chip, gain);
-    const double electrons_per_count = 0.25 * chip.electrons_per_dn / gain;
-    EXPECT_NEAR(found.electrons_per_count / electrons_per_count, 1.0, 0.05) << name;
+    const SensorChip chip = catalogue_camera(name).chip;
+    const PhotonTransfer found = measure_photon_transfer(chip);
+    EXPECT_NEAR(found.electrons_per_count / electrons_per_count(chip, found.gain), 1.0, 0.05) << name;
     EXPECT_NEAR(found.read_noise_electrons / chip.read_noise_electrons, 1.0, 0.10) << name;
     EXPECT_NEAR(found.full_well_electrons / chip.full_well_electrons, 1.0, 0.05) << name;
-    RecordProperty(name, std::to_string(found.electrons_per_count / electrons_per_count) + " " +
+    RecordProperty(name, std::to_string(found.electrons_per_count / electrons_per_count(chip, found.gain)) + " " +
                              std::to_string(found.read_noise_electrons / chip.read_noise_electrons) + " " +
                              std::to_string(found.full_well_electrons / chip.full_well_electrons));
   }

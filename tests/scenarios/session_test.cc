@@ -120,19 +120,24 @@ std::vector<RecordingEstimator::Message> of(Module module, const std::vector<Rec
   return some;
 }
 
+void expect_same_messages(const std::vector<RecordingEstimator::Message>& one,
+                          const std::vector<RecordingEstimator::Message>& two) {
+  ASSERT_EQ(one.size(), two.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    ASSERT_EQ(one[i].module, two[i].module) << i;
+    ASSERT_EQ(one[i].delivery_ns, two[i].delivery_ns) << i;
+    ASSERT_TRUE(one[i].bytes == two[i].bytes) << "message " << i;
+  }
+}
+
 TEST_F(Session, GivesTheSameBytesWhateverTheNumberOfThreads) {
   const Scenario scenario = load();
   RecordingEstimator in_turn;
   RecordingEstimator ahead;
   const RunRecord one = run(scenario, 1, in_turn);
   const RunRecord two = run(scenario, 2, ahead);
-  ASSERT_EQ(in_turn.messages.size(), ahead.messages.size());
   ASSERT_GT(in_turn.messages.size(), 600U);
-  for (std::size_t i = 0; i < in_turn.messages.size(); ++i) {
-    ASSERT_EQ(in_turn.messages[i].module, ahead.messages[i].module) << i;
-    ASSERT_EQ(in_turn.messages[i].delivery_ns, ahead.messages[i].delivery_ns) << i;
-    ASSERT_TRUE(in_turn.messages[i].bytes == ahead.messages[i].bytes) << "message " << i;
-  }
+  expect_same_messages(in_turn.messages, ahead.messages);
   ASSERT_EQ(one.ground_truth.size(), two.ground_truth.size());
   for (std::size_t i = 0; i < one.ground_truth.size(); ++i) {
     EXPECT_EQ(one.ground_truth[i].pose.translation, two.ground_truth[i].pose.translation);
@@ -153,6 +158,45 @@ TEST_F(Session, DeliversInOrderWithTheImuFirst) {
   }
   EXPECT_EQ(of(Module::kImu, all).front().delivery_ns, 5'000'000);
   EXPECT_EQ(of(Module::kVision, all).front().delivery_ns, 20'000'000);
+}
+
+TEST_F(Session, GivesTheSameBytesWithEveryKindOfTroubleOnTheWay) {
+  const Scenario scenario = load(
+      {"rig.imu.clock={offset_ms: 3, drift_ppm: 50, jitter_us: 40}", "rig.lidar.clock.jitter_us=100",
+       "rig.camera.delay_ms=12", "rig.camera.delay_jitter_ms=20", "rig.lidar.delay_jitter_ms=30",
+       "rig.imu.delay_jitter_ms=2",
+       "faults=[{sensor: imu, kind: nan, start_s: 0.2, end_s: 2, probability: 0.2}, {sensor: imu, kind: reorder, "
+       "start_s: 0.2, end_s: 2, probability: 0.2}, {sensor: camera, kind: freeze, start_s: 0.5, end_s: 1, probability: "
+       "0.5}, {sensor: camera, kind: drop_out, start_s: 1, end_s: 2, probability: 0.5}, {sensor: lidar, kind: "
+       "duplicate, start_s: 0, end_s: 2, probability: 0.5}, {sensor: lidar, kind: partial, start_s: 0, end_s: 2, "
+       "probability: 0.5}]"});
+  RecordingEstimator in_turn;
+  RecordingEstimator ahead;
+  run(scenario, 1, in_turn);
+  run(scenario, 2, ahead);
+  expect_same_messages(in_turn.messages, ahead.messages);
+  RecordingEstimator untroubled;
+  run(load(), 2, untroubled);
+  EXPECT_GT(of(Module::kLidar, in_turn.messages).size(), of(Module::kLidar, untroubled.messages).size());
+  EXPECT_LT(of(Module::kVision, in_turn.messages).size(), of(Module::kVision, untroubled.messages).size());
+}
+
+TEST_F(Session, DeliversInOrderOfArrivalWhateverTheSensorsDelays) {
+  const Scenario scenario = load({"rig.imu.delay_ms=5", "rig.camera.delay_ms=18", "rig.lidar.delay_ms=43"});
+  RecordingEstimator estimator;
+  run(scenario, 2, estimator);
+  const auto arrival_ns = [](const RecordingEstimator::Message& message) {
+    constexpr std::array<std::int64_t, 3> kDelay_ns{5'000'000, 18'000'000, 43'000'000};  // IMU, vision, lidar
+    return message.delivery_ns + kDelay_ns.at(static_cast<std::size_t>(message.module));
+  };
+  const auto& all = estimator.messages;
+  int older_than_the_one_before = 0;
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    ASSERT_GE(arrival_ns(all[i]), arrival_ns(all[i - 1])) << i;
+    if (all[i].delivery_ns < all[i - 1].delivery_ns) ++older_than_the_one_before;
+  }
+  // Every scan and nearly every frame comes after IMU samples that were measured later.
+  EXPECT_GT(older_than_the_one_before, 50);
 }
 
 TEST_F(Session, KeepsTheTruthAndOneEstimatePerImuSample) {

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "sim/rig_driver.h"
+#include "tests/sim/vehicle_world.h"
 #include "tests/support/aggressive_motion.h"
 
 namespace plumbline {
@@ -33,6 +36,31 @@ TEST(Imu, SampleIsTheMeanOverItsInterval) {
   }
   // The midpoint sum errs by (interval / n)^2 times a second derivative.
   EXPECT_LT((exact_sample(trajectory, start, start + period).angular_rate - mean).norm(), 1e-8);
+}
+
+TEST(Imu, SamplesSpanTheKnotsOfAMotionThatIsNotSmooth) {
+  const World world = testing::vehicle_world();
+  MotionConfig config = testing::by_vehicle("runner", "straight");
+  config.route_length_m = 6.0;
+  const Trajectory runner = mounted_on(make_trajectory(config, world, RayScene(world), 1), {});
+  const std::int64_t period_ns = 10'000'000;  // two of the runner's knots
+  double force = 0.0;
+  double rate = 0.0;
+  for (std::int64_t start_ns = 0; start_ns + period_ns < runner.end_ns(); start_ns += 7 * 2'500'000) {
+    ImuSample mean;
+    const int n = 4000;  // midpoints between the knots, where a midpoint sum errs by h^2 times the curvature
+    for (int i = 0; i < n; ++i) {
+      const MotionState s = runner.at_seconds((static_cast<double>(start_ns) + (i + 0.5) / n * period_ns) * 1e-9);
+      mean.angular_rate += s.angular_rate_in_body / n;
+      mean.specific_force +=
+          s.world_from_body.rotation.conjugate() * (s.acceleration_in_world + 9.81 * Eigen::Vector3d::UnitZ()) / n;
+    }
+    const ImuSample sample = exact_sample(runner, start_ns, start_ns + period_ns);
+    force = std::max(force, (sample.specific_force - mean.specific_force).norm());
+    rate = std::max(rate, (sample.angular_rate - mean.angular_rate).norm());
+  }
+  EXPECT_LT(force, 1e-6);
+  EXPECT_LT(rate, 1e-7);
 }
 
 TEST(Imu, WhiteNoiseHasTheDataSheetsDensity) {
@@ -73,7 +101,8 @@ TEST(Imu, LeverArmGivesTheAccelerationOfThePointItself) {
   const Eigen::Vector3d arm(0.3, -0.2, 0.1);
   const auto place = [&](double time_s) { return trajectory.at_seconds(time_s).world_from_body * arm; };
   const double h = 1e-3;
-  for (double time_s = 5.0; time_s < 30.0; time_s += 1.37) {
+  // Halfway between knots, which are 10 ms apart: across one the differences would not see the acceleration's bend.
+  for (double time_s = 5.005; time_s < 30.0; time_s += 1.37) {
     const Eigen::Vector3d acceleration = (place(time_s + h) - 2.0 * place(time_s) + place(time_s - h)) / (h * h);
     const MotionState state = trajectory.at_seconds(time_s);
     const Eigen::Vector3d force =

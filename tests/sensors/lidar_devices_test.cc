@@ -1,22 +1,18 @@
-// Each lidar of the catalogue against its data sheet, whose figures are typed again here: when its beams fire and where
-// to, from the points alone.
+// Each lidar of the catalogue against its data sheet, and what must hold of all of them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 #include "scenarios/catalogue.h"
 #include "sensors/lidar.h"
+#include "tools/verify/lidar_firing_check.h"
 
 namespace plumbline {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kAngle_deg = 1e-4;
-constexpr double kTime_ns = 1.0;
 
 SceneDescription sphere_scene() {
   SceneDescription scene;
@@ -39,183 +35,19 @@ struct Sphere {
   }
 };
 
-Lidar ideal(const std::string& name, double rate_hz = 0.0) {
-  LidarModel model = catalogue_lidar(name);
-  if (rate_hz > 0.0) model.rate_hz = rate_hz;
-  return Lidar(model, Pose{}, 1, LidarEffects::none());
-}
-
-double wrapped_deg(double degrees) { return std::remainder(degrees, 360.0); }
-
-struct SheetBeam {
-  double elevation_deg = 0.0;
-  double origin_z_m = 0.0;
-  double firing_us = 0.0;
-};
-
-using Sheet = std::function<SheetBeam(int ring)>;
-
-SheetBeam vlp16_sheet(int ring) {
-  // Rings alternate between the first and the second eight lasers of the table; offsets by laser.
-  constexpr std::array<double, 16> kOffset_mm = {11.2, 9.7,  8.1,  6.6,  5.1,  3.7,  2.2,  0.7,
-                                                 -0.7, -2.2, -3.7, -5.1, -6.6, -8.1, -9.7, -11.2};
-  const int laser = ring < 8 ? 2 * ring : 2 * ring - 15;
-  return {2.0 * ring - 15.0, 1e-3 * kOffset_mm[static_cast<std::size_t>(ring)], 2.304 * laser};
-}
-
-SheetBeam hdl32e_sheet(int ring) {
-  constexpr std::array<double, 32> kInFiringOrder = {-30.67, -9.33, -29.33, -8.00, -28.00, -6.66, -26.66, -5.33,
-                                                     -25.33, -4.00, -24.00, -2.67, -22.67, -1.33, -21.33, 0,
-                                                     -20.00, 1.33,  -18.67, 2.67,  -17.33, 4.00,  -16.00, 5.33,
-                                                     -14.67, 6.67,  -13.33, 8.00,  -12.00, 9.33,  -10.67, 10.67};
-  std::array<double, 32> ascending = kInFiringOrder;
-  std::sort(ascending.begin(), ascending.end());
-  const double elevation_deg = ascending[static_cast<std::size_t>(ring)];
-  const auto laser = std::find(kInFiringOrder.begin(), kInFiringOrder.end(), elevation_deg) - kInFiringOrder.begin();
-  return {elevation_deg, 0.0, 1.152 * static_cast<double>(laser)};
-}
-
-SheetBeam hdl64e_sheet(int ring, double group_us, const std::array<double, 4>& within_group_us) {
-  // Lasers of either block from the lowest to the highest.
-  constexpr std::array<int, 32> kLaser = {6,  7,  10, 11, 0,  1,  4,  5,  8,  9,  14, 15, 18, 19, 22, 23,
-                                          12, 13, 16, 17, 20, 21, 26, 27, 30, 31, 2,  3,  24, 25, 28, 29};
-  const bool upper = ring >= 32;
-  const int from_top = (upper ? 63 : 31) - ring;
-  const double elevation_deg = upper ? 2.0 - from_top / 3.0 : -8.83 - 0.5 * from_top;
-  const double origin_mm = upper ? 206.5 + 1.263 * elevation_deg : 135.6 + 1.208 * elevation_deg;
-  const auto laser = static_cast<std::size_t>(kLaser[static_cast<std::size_t>(31 - from_top)]);
-  return {elevation_deg, 1e-3 * std::round(10.0 * origin_mm) / 10.0,
-          group_us * static_cast<double>(laser / 4) + within_group_us[laser % 4]};
-}
-
-struct SpinningCase {
-  std::string name;
-  double cycle_us;
-  int lasers;
-  std::vector<double> rates_hz;
-  Sheet sheet;
-};
-
-std::vector<SpinningCase> spinning_cases() {
-  return {{"vlp16", 55.296, 16, {5, 10, 20}, vlp16_sheet},
-          {"hdl32e", 46.08, 32, {5, 10, 20}, hdl32e_sheet},
-          {"hdl64e",
-           48.0,
-           64,
-           {5, 10, 15},
-           [](int ring) {
-             return hdl64e_sheet(ring, 6.0, {0, 1.26, 2.46, 3.66});
-           }},
-          {"hdl64e_s3", 57.6, 64, {5, 10, 20}, [](int ring) {
-             return hdl64e_sheet(ring, 7.2, {0, 1.3, 2.5, 3.7});
-           }}};
-}
-
-TEST(LidarDevices, VelodynesFireAtTheTimesAndAnglesOfTheirManuals) {
-  const Sphere sphere;
-  for (const SpinningCase& device : spinning_cases()) {
-    for (const double rate_hz : device.rates_hz) {
-      SCOPED_TRACE(device.name + " at " + std::to_string(rate_hz) + " Hz");
-      const Lidar lidar = ideal(device.name, rate_hz);
-      const double period_ns = static_cast<double>(lidar.period_ns());
-      for (const std::int64_t message : {0, 7}) {
-        const LidarScan scan = sphere.scan(lidar, message);
-        for (const LidarPoint& point : scan.points) {
-          const SheetBeam beam = device.sheet(point.ring);
-          // The firing clock runs on over the revolutions, from message 0.
-          const double since_start_ns = static_cast<double>(message) * period_ns + point.offset_ns;
-          const double into_cycle_ns = std::remainder(since_start_ns - 1e3 * beam.firing_us, 1e3 * device.cycle_us);
-          ASSERT_NEAR(into_cycle_ns, 0.0, kTime_ns);
-          const Eigen::Vector3d ray = point.position.cast<double>() - Eigen::Vector3d(0, 0, beam.origin_z_m);
-          ASSERT_NEAR(std::atan2(ray.z(), std::hypot(ray.x(), ray.y())) / kDegree, beam.elevation_deg, kAngle_deg);
-          const double azimuth_deg = 180.0 - 360.0 * point.offset_ns / period_ns;
-          ASSERT_NEAR(wrapped_deg(std::atan2(ray.y(), ray.x()) / kDegree - azimuth_deg), 0.0, kAngle_deg);
-        }
-      }
-    }
+TEST(LidarDevices, FireAtTheTimesAndAnglesOfTheirDataSheets) {
+  std::vector<std::string> checked;
+  for (const FiringCheck& check : check_lidar_firing()) {
+    SCOPED_TRACE(check.device + " at " + std::to_string(check.rate_hz) + " Hz");
+    EXPECT_LE(check.worst_time_ns, 1.0);
+    EXPECT_LE(check.worst_angle_deg, 1e-4);
+    EXPECT_EQ(check.misplaced, 0);
+    EXPECT_EQ(check.points, check.expected_points);
+    checked.push_back(check.device);
   }
-}
-
-TEST(LidarDevices, VelodynesLoseNoFiringBetweenRevolutions) {
-  const Sphere sphere;
-  for (const SpinningCase& device : spinning_cases()) {
-    SCOPED_TRACE(device.name);
-    const Lidar lidar = ideal(device.name);
-    std::size_t points = 0;
-    for (std::int64_t message = 0; message < 10; ++message) points += sphere.scan(lidar, message).points.size();
-    std::size_t expected = 0;
-    for (int ring = 0; ring < device.lasers; ++ring)
-      expected += static_cast<std::size_t>(std::ceil((1e6 - device.sheet(ring).firing_us) / device.cycle_us - 1e-9));
-    EXPECT_EQ(points, expected);
-    EXPECT_NEAR(static_cast<double>(points), device.lasers / device.cycle_us * 1e6, device.lasers);
+  for (const std::string& name : catalogue_names("lidar")) {
+    EXPECT_NE(std::find(checked.begin(), checked.end(), name), checked.end()) << name;
   }
-}
-
-TEST(LidarDevices, OustersFireColumnsAtTheirEncoderPositions) {
-  const Sphere sphere;
-  for (const int columns : {1024, 2048}) {
-    const Lidar lidar = ideal("os1_64_" + std::to_string(columns));
-    const LidarScan scan = sphere.scan(lidar, 3);
-    ASSERT_EQ(scan.points.size(), static_cast<std::size_t>(64 * columns));
-    for (std::size_t i = 0; i < scan.points.size(); ++i) {
-      const LidarPoint& point = scan.points[i];
-      const auto column = static_cast<int>(i / 64);
-      const auto row = static_cast<int>(i % 64);
-      ASSERT_NEAR(point.offset_ns, 1e8 * column / columns, kTime_ns);
-      ASSERT_EQ(point.ring, 63 - row);
-      const double encoder_deg = 180.0 - 360.0 * column / columns;
-      const Eigen::Vector3d origin(0.012163 * std::cos(encoder_deg * kDegree),
-                                   0.012163 * std::sin(encoder_deg * kDegree), 0.0);
-      const Eigen::Vector3d ray = point.position.cast<double>() - origin;
-      constexpr std::array<double, 4> kStagger_deg = {3.164, 1.055, -1.055, -3.164};
-      ASSERT_NEAR(std::atan2(ray.z(), std::hypot(ray.x(), ray.y())) / kDegree, 16.611 - 0.5273 * row, kAngle_deg);
-      ASSERT_NEAR(wrapped_deg(std::atan2(ray.y(), ray.x()) / kDegree - encoder_deg -
-                              kStagger_deg[static_cast<std::size_t>(row % 4)]),
-                  0.0, kAngle_deg);
-    }
-  }
-}
-
-// Steps of 0.25 degrees every 25 ms / 1440, the joint turned about x at 180 degrees per second.
-void expect_lines_of_the_utm30lx(const std::string& name, int first_step, int last_step,
-                                 const std::function<double(double)>& joint_deg_at) {
-  const Sphere sphere;
-  const Lidar lidar = ideal(name);
-  const auto steps = static_cast<std::size_t>(last_step - first_step + 1);
-  std::size_t points = 0;
-  for (std::int64_t message = 0; message < 25; ++message) {
-    const LidarScan scan = sphere.scan(lidar, message);
-    ASSERT_EQ(scan.sweep, message / 10);
-    ASSERT_EQ(scan.ends_sweep, message % 10 == 9);
-    ASSERT_EQ(scan.points.size(), 4 * steps);
-    if (message < 10) points += scan.points.size();
-    for (std::size_t i = 0; i < scan.points.size(); ++i) {
-      const LidarPoint& point = scan.points[i];
-      const auto line = static_cast<int>(i / steps);
-      const int step = first_step + static_cast<int>(i % steps);
-      ASSERT_NEAR(point.offset_ns, 25e6 * line + 25e6 / 1440.0 * step, kTime_ns);
-      ASSERT_EQ(point.ring, 4 * (message % 10) + line);
-      const double joint = joint_deg_at(1e-9 * (1e8 * static_cast<double>(message) + point.offset_ns)) * kDegree;
-      const double in_plane = 0.25 * (step - 540) * kDegree;
-      const Eigen::Vector3d expected(std::cos(in_plane), std::sin(in_plane) * std::cos(joint),
-                                     std::sin(in_plane) * std::sin(joint));
-      const Eigen::Vector3d ray = point.position.cast<double>().normalized();
-      ASSERT_LE(ray.cross(expected).norm() / kDegree, kAngle_deg);
-      ASSERT_GT(ray.dot(expected), 0.0);
-    }
-  }
-  EXPECT_EQ(points, 40 * steps) << "readings per second";
-}
-
-TEST(LidarDevices, TheSweepingScannerTurnsBackAndForth) {
-  expect_lines_of_the_utm30lx("utm30lx_sweeping", 180, 900, [](double time_s) {
-    const double into_round_s = std::fmod(time_s, 2.0);
-    return into_round_s < 1.0 ? -90.0 + 180.0 * into_round_s : 270.0 - 180.0 * into_round_s;
-  });
-}
-
-TEST(LidarDevices, TheSpinningScannerTurnsOn) {
-  expect_lines_of_the_utm30lx("utm30lx_spinning", 0, 1080, [](double time_s) { return -90.0 + 180.0 * time_s; });
 }
 
 TEST(LidarDevices, TheEncoderTurnsPointsInStepsAboutTheJointsAxis) {

@@ -4,10 +4,10 @@ namespace plumbline {
 
 const char* const kPageStyle = R"css(
 :root{color-scheme:light dark;--paper:#fbfbf9;--card:#fff;--ink:#1c2127;--soft:#5d6773;--line:#e3e5e8;--grid:#eceef0;
---c0:#3b6fb6;--c1:#2a9d7c;--c2:#a05fb0;--estimate:#d95f0e;--warn:#c8203f;
+--c0:#3b6fb6;--c1:#2a9d7c;--c2:#a05fb0;--c3:#8a8420;--estimate:#d95f0e;--warn:#c8203f;
 --solved:#2a9d7c;--partial:#e5a61c;--bypassed:#c8203f;--nothing:#eceef0}
 @media(prefers-color-scheme:dark){:root{--paper:#14171b;--card:#1b1f25;--ink:#e7eaee;--soft:#98a3af;--line:#2c323a;
---grid:#262b32;--c0:#7aa9ea;--c1:#56c7a4;--c2:#cb93da;--estimate:#ff9147;--warn:#ff6b81;
+--grid:#262b32;--c0:#7aa9ea;--c1:#56c7a4;--c2:#cb93da;--c3:#cfc75e;--estimate:#ff9147;--warn:#ff6b81;
 --solved:#3fb391;--partial:#e9b949;--bypassed:#ec5b72;--nothing:#2a2f37}}
 *{box-sizing:border-box}
 body{margin:0;background:var(--paper);color:var(--ink);font:15px/1.5 system-ui,-apple-system,"Segoe UI",Roboto,sans-serif}
@@ -16,7 +16,7 @@ header{display:flex;flex-wrap:wrap;align-items:baseline;gap:6px 14px}
 h1{font-size:28px;line-height:1.2;margin:0;overflow-wrap:anywhere}
 h2{font-size:19px;margin:40px 0 4px}
 p.note{margin:0 0 12px;color:var(--soft);max-width:80ch}
-.badge{font-weight:600;font-size:14px;padding:2px 12px;border-radius:99px;color:#fff;background:var(--soft)}
+.badge{white-space:nowrap;font-weight:600;font-size:14px;padding:2px 12px;border-radius:99px;color:#fff;background:var(--soft)}
 td .badge{font-size:12px;padding:1px 9px;white-space:nowrap}a{color:var(--c0)}td a{white-space:nowrap}
 .badge.ok{background:#1f7f63}.badge.failed{background:#a66c00}.badge.lost,.badge.error{background:#b81d3a}
 .sub{color:var(--soft)}
@@ -45,7 +45,8 @@ svg text{font-size:13px;fill:var(--soft);font-family:inherit}
 .axis{stroke:var(--soft);stroke-width:1;vector-effect:non-scaling-stroke}
 .grid{stroke:var(--grid);stroke-width:1;vector-effect:non-scaling-stroke}
 .line{fill:none;stroke-width:1.4;stroke-linecap:round;stroke-linejoin:round;vector-effect:non-scaling-stroke}
-.c0{--hue:var(--c0)}.c1{--hue:var(--c1)}.c2{--hue:var(--c2)}.estimate{--hue:var(--estimate)}.warn{--hue:var(--warn)}
+.c0{--hue:var(--c0)}.c1{--hue:var(--c1)}.c2{--hue:var(--c2)}.c3{--hue:var(--c3)}
+.estimate{--hue:var(--estimate)}.warn{--hue:var(--warn)}
 .truth{--hue:var(--ink)}.solved{--hue:var(--solved)}.partial{--hue:var(--partial)}.bypassed{--hue:var(--bypassed)}
 .nothing{--hue:var(--nothing)}.bar{--hue:var(--c0)}
 .line{stroke:var(--hue)}rect{fill:var(--hue)}

@@ -11,7 +11,7 @@ namespace plumbline {
 /// One line. A value that is not finite breaks it.
 struct ChartSeries {
   std::string label;
-  std::string css_class;  ///< of the page's palette: c0 … c5, truth, estimate, warn
+  std::string css_class;  ///< of the page's palette: c0 … c3, truth, estimate, warn
   std::vector<double> x;
   std::vector<double> y;
 };

@@ -8,14 +8,16 @@
 #include "scenarios/input_error.h"
 #include "tools/exit_code.h"
 #include "tools/output/atomic_file.h"
+#include "tools/verify/camera_section.h"
 #include "tools/verify/imu_section.h"
+#include "tools/verify/lidar_section.h"
 #include "tools/verify/page.h"
 
 namespace plumbline {
 namespace {
 
 ExitCode verify(const std::filesystem::path& directory) {
-  const std::vector<VerifySection> sections{imu_section()};
+  const std::vector<VerifySection> sections{imu_section(), lidar_section(), camera_section()};
   ExitCode code = kExitDone;
   for (const VerifySection& section : sections) {
     for (const VerifyRow& row : section.rows) {
