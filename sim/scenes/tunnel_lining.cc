@@ -134,7 +134,6 @@ void add_patch(MeshBuilder& mesh, const TunnelPlan& plan, const TunnelStrip& str
     std::vector<Eigen::Vector3d> far = points_at(from + (to - from) * (row + 1.0) / rows);
     while (stretch + 1 < stretches.size() && stretches[stretch].to < middle) ++stretch;
     for (std::size_t i = 0; i + 1 < near.size(); ++i) {
-      // Two triangles: the four corners of a cell of rough wall are not in a plane.
       mesh.quad(stretches[stretch].material, near[i], far[i], far[i + 1], near[i + 1]);
     }
     near = std::move(far);
