@@ -93,7 +93,7 @@ double tone_exponent(const std::vector<float>& luminance, float white) {
 
 /// Exposed so that all but lamps and the brightest spots keep their detail.
 cv::Mat3b developed(const RadianceImage& image) {
-  const float white = std::max(quantile(image.luminance, 0.995), 1e-9F);
+  const float white = std::max(quantile(image.luminance, 0.985), 1e-9F);
   const double exponent = tone_exponent(image.luminance, white);
   cv::Mat3b picture(image.height, image.width);
   for (int v = 0; v < image.height; ++v) {
@@ -117,31 +117,38 @@ RenderView view_of(int width, int height) {
   return view;
 }
 
-/// How much there is to see: edges of things, and those of wide views count more than those of a wall close by. Over
-/// a plane the inverse of the depth is linear, so that it bends at edges alone.
+/// How much there is to see: the parts of the picture with edges of things; those of wide views count more than those
+/// of a wall close by. Over a plane the inverse of the depth is linear, so that it bends at edges alone.
 double interest(const RadianceImage& image) {
   constexpr double kBend = 0.02;
   constexpr double kWide_m = 12.0;
+  constexpr int kPart_px = 15;
   const cv::Mat1f depth = cv::Mat1f(image.depth_m, true).reshape(1, image.height);
   const cv::Mat1f inverse = 1.0F / depth;
   cv::Mat1f bend;
   cv::Laplacian(inverse, bend, CV_32F);
-  const int edges = cv::countNonZero(cv::abs(bend.mul(depth)) > kBend);
-  return edges * std::sqrt(std::min<double>(quantile(image.depth_m, 0.5), kWide_m));
+  const cv::Mat1b edges = cv::abs(bend.mul(depth)) > kBend;
+  int parts = 0;
+  for (int v = 0; v + kPart_px <= edges.rows; v += kPart_px) {
+    for (int u = 0; u + kPart_px <= edges.cols; u += kPart_px) {
+      if (cv::countNonZero(edges(cv::Rect(u, v, kPart_px, kPart_px))) >= kPart_px) ++parts;
+    }
+  }
+  return parts * std::sqrt(std::min<double>(quantile(image.depth_m, 0.5), kWide_m));
 }
 
 RadianceImage photograph(Renderer& renderer, const Pose& world_from_camera) {
   return renderer.render({.world_from_camera = world_from_camera, .world_from_body = world_from_camera});
 }
 
-/// Where the most is seen of some places spread over the route's first half, ahead or half to a side.
+/// Where the most is seen of some places spread over the route, ahead or half to a side.
 Options aimed(const World& world, const RayScene& rays, Options options) {
-  constexpr int kPlaces = 7;
+  constexpr int kPlaces = 8;
   Renderer renderer(world, view_of(kWidth, kHeight), {.threads = 1, .depth = true, .colour = false});
   Options best = options;
   double most = -1.0;
   for (int i = 0; i < kPlaces; ++i) {
-    options.share = (i + 0.3) / (2.0 * kPlaces);
+    options.share = (i + 0.3) / kPlaces;
     const Station station = station_on(world.routes()[options.route], options.share);
     for (const double yaw_deg : {0.0, 40.0, -40.0}) {
       options.yaw_deg = yaw_deg;

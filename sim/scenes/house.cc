@@ -116,7 +116,7 @@ SceneInfo house_scene() {
           .parameters = {{"length_m", 18, 16, 26, "within the outer walls along x"},
                          {"width_m", 12, 11, 16, "along y"},
                          {"storey_m", 2.8, 2.6, 3.4, "from floor to floor"},
-                         {"furniture", 0.4, 0, 1, "share of the places along the rooms' walls that are taken"},
+                         {"furniture", 0.3, 0, 1, "share of the places along the rooms' walls that are taken"},
                          {"trees", 10, 0, 30, "in the garden", true}},
           .build = build_house};
 }

@@ -20,7 +20,6 @@ using Eigen::Vector3d;
 constexpr double kPathHalf_m = 0.8;
 constexpr double kHedge_m = 9.0;  // from the path to the hedge
 constexpr double kReach_m = 120.0;
-constexpr double kTile_m = 4.0 * kReach_m;  // one for all: the garden is seen as a whole
 
 Vector2d grown(const Vector2d& half, double by) { return half + Vector2d::Constant(by); }
 
@@ -133,7 +132,7 @@ void add_garden(MjcfWriter& writer, const HousePlan& plan) {
   add_ring(writer, "grass", grown(path_out, kHedge_m), Vector2d::Constant(kReach_m));
   const double door = plan.outer_half().x();
   writer.box("stone_pale", {door, -1.2, 0.0}, {door + 1.0, 1.2, HousePlan::kFirstFloor_m});
-  Scenery scenery(kTile_m);
+  Scenery scenery;
   add_trees(scenery, plan);
   add_hedges(scenery, plan);
   add_bushes(scenery, plan);
