@@ -41,7 +41,8 @@ std::string bytes_of(const RunRecord& record) {
   return bytes;
 }
 
-const std::vector<std::string> kShortWalk{"motion.rest_s=1", "motion.waypoints=[[6, 4.75, 1.5], [7.5, 4.75, 1.5]]"};
+const std::vector<std::string> kShortWalk{"rig.camera.rate_hz=20", "motion.rest_s=1",
+                                          "motion.waypoints=[[6, 4.75, 1.5], [7.5, 4.75, 1.5]]"};
 // Ten metres in the middle of the tunnel, the ends out of the lidar's range.
 const std::string kShortDrive = "motion.waypoints=[[-5, 0, 1.5], [5, 0, 1.5]]";
 
