@@ -53,7 +53,7 @@ CameraFrame middle_frame(const Scenario& scenario, double speed_mps) {
   const World world = edge_world();
   const RayScene rays(world);
   const Trajectory motion = sideways(speed_mps);
-  FrameStream stream(scenario, {world, rays}, motion);
+  FrameStream stream(scenario, {world, rays}, motion, 0);
   CameraFrame frame;
   for (auto message = stream.next(); message && message->delivery_ns <= 500'000'000; message = stream.next()) {
     if (const auto* seen = std::get_if<CameraFrame>(&message->payload); seen && seen->camera_id == 0) frame = *seen;
