@@ -20,6 +20,7 @@ struct SceneParameter {
 };
 
 inline constexpr double kLampLightLux = 200.0;
+inline constexpr double kStreetLampLux = 20.0;
 inline constexpr double kDaylightLux = 50'000.0;
 
 using SceneValues = std::map<std::string, double>;
@@ -31,7 +32,7 @@ struct SceneInfo {
   std::vector<SceneParameter> parameters;
   /// `values` holds every parameter, defaults filled in and ranges checked.
   SceneDescription (*build)(const SceneValues& values, std::uint64_t world_seed) = nullptr;
-  double usual_lux = kLampLightLux;  ///< the light level unless a scenario sets one
+  double usual_lux = kLampLightLux;  ///< the light level unless a scenario sets one, or the sun shines
 };
 
 const std::vector<SceneInfo>& scene_library();

@@ -34,6 +34,11 @@ void check(const SceneMesh& mesh) {
 
 }  // namespace
 
+Eigen::Vector3d on_grid(const Eigen::Vector3d& corner_in_world) {
+  constexpr double kGrid_m = 1.0 / 16384.0;
+  return (corner_in_world / kGrid_m).array().round() * kGrid_m;
+}
+
 std::vector<SceneMesh> joined_meshes(std::vector<SceneMesh> meshes, std::size_t limit) {
   if (meshes.size() <= limit) return meshes;
   std::map<std::string, std::vector<SceneMesh>> of_material;

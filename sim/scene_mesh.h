@@ -19,6 +19,10 @@ struct SceneMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
+/// A corner of scenery, rounded to 2^-14 m in the world: corners that meet stay together in meshes of different
+/// origins.
+Eigen::Vector3d on_grid(const Eigen::Vector3d& corner_in_world);
+
 /// The same triangles in at most `limit` meshes, or one for each material if that is more: neighbours in the list that
 /// share a material are put together.
 std::vector<SceneMesh> joined_meshes(std::vector<SceneMesh> meshes, std::size_t limit);

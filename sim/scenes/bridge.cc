@@ -183,7 +183,8 @@ SceneInfo bridge_scene() {
           .parameters = {{"valley_depth_m", 12, 9, 18, "of the river's bed below the bridge's road"},
                          {"leaf_density", 1, 0.3, 4, "sprays of leaves on every tree; 1: some 450"},
                          night_parameter()},
-          .build = build_bridge};
+          .build = build_bridge,
+          .usual_lux = kStreetLampLux};
 }
 
 }  // namespace plumbline

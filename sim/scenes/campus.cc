@@ -193,7 +193,8 @@ SceneInfo campus_scene() {
           .parameters = {{"length_m", 2700, 500, 4000, "of the path, once round"},
                          {"leaf_density", 1, 0.3, 4, "sprays of leaves on every tree; 1: some 450"},
                          night_parameter()},
-          .build = build_campus};
+          .build = build_campus,
+          .usual_lux = kStreetLampLux};
 }
 
 }  // namespace plumbline

@@ -199,7 +199,8 @@ SceneInfo highway_scene() {
                          {"trees_per_km", 15, 0, 200, "scattered over the land beside it"},
                          {"moving_cars_per_km", 6, 0, 30, "on the other carriageway"},
                          night_parameter()},
-          .build = build_highway};
+          .build = build_highway,
+          .usual_lux = kStreetLampLux};
 }
 
 }  // namespace plumbline

@@ -115,7 +115,8 @@ SceneInfo lawn_scene() {
           .parameters = {{"clear_m", 32, 20, 60, "radius without anything but grass"},
                          {"tufts", 2500, 0, 10000, "of grass on the middle 60 m x 60 m", true},
                          night_parameter()},
-          .build = build_lawn};
+          .build = build_lawn,
+          .usual_lux = kStreetLampLux};
 }
 
 }  // namespace plumbline

@@ -8,10 +8,6 @@
 namespace plumbline {
 namespace {
 
-constexpr double kGrid_m = 1.0 / 16384.0;
-
-Eigen::Vector3d rounded(const Eigen::Vector3d& point) { return (point / kGrid_m).array().round() * kGrid_m; }
-
 std::vector<Eigen::Vector3d> ring(const Eigen::Vector3d& centre, double radius, const Eigen::Vector3d& axis,
                                   int sides) {
   const Eigen::Vector3d right = axis.unitOrthogonal();
@@ -44,7 +40,7 @@ void MeshBuilder::add_fan(const std::string& material, const std::vector<Eigen::
   }
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   for (const Eigen::Vector3d& corner : corners_in_world) {
-    mesh.vertices.emplace_back((rounded(corner) - mesh.origin).cast<float>());
+    mesh.vertices.emplace_back((on_grid(corner) - mesh.origin).cast<float>());
   }
   for (std::uint32_t i = 2; i < corners_in_world.size(); ++i) {
     mesh.triangles.push_back({first, first + i - 1, first + i});

@@ -134,7 +134,8 @@ SceneInfo orchard_scene() {
                          {"row_pairs", 3, 2, 10, "half the number of rows", true},
                          {"leaf_density", 1, 0.2, 3, "sprays of leaves on every tree; 1: some 600"},
                          night_parameter()},
-          .build = build_orchard};
+          .build = build_orchard,
+          .usual_lux = kStreetLampLux};
 }
 
 }  // namespace plumbline

@@ -36,7 +36,7 @@ SceneMesh& Scenery::batch(const std::string& material, const Vector3d& place) {
 void Scenery::add(SceneMesh& mesh, std::initializer_list<Vector3d> corners,
                   std::initializer_list<std::array<std::uint32_t, 3>> triangles) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-  for (const Vector3d& corner : corners) mesh.vertices.emplace_back((corner - mesh.origin).cast<float>());
+  for (const Vector3d& corner : corners) mesh.vertices.emplace_back((on_grid(corner) - mesh.origin).cast<float>());
   for (const auto& t : triangles) mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
   triangle_count_ += triangles.size();
 }
@@ -95,8 +95,8 @@ void Scenery::rod(const std::string& material, const Vector3d& from, const Vecto
   for (int i = 0; i < sides; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / sides;
     const Vector3d out = std::cos(angle) * u + std::sin(angle) * v;
-    mesh.vertices.emplace_back((from + from_radius_m * out - mesh.origin).cast<float>());
-    mesh.vertices.emplace_back((to + to_radius_m * out - mesh.origin).cast<float>());
+    mesh.vertices.emplace_back((on_grid(from + from_radius_m * out) - mesh.origin).cast<float>());
+    mesh.vertices.emplace_back((on_grid(to + to_radius_m * out) - mesh.origin).cast<float>());
   }
   for (int i = 0; i < sides; ++i) {
     const std::uint32_t a = first + 2U * static_cast<std::uint32_t>(i);
@@ -114,7 +114,7 @@ void Scenery::prism(const std::string& material, const std::vector<Eigen::Vector
   for (const double y : {y0, y1}) {
     for (const Eigen::Vector2d& p : profile) {
       const Vector3d corner = world_from_local * Vector3d(p.x(), y, p.y());
-      mesh.vertices.emplace_back((corner - mesh.origin).cast<float>());
+      mesh.vertices.emplace_back((on_grid(corner) - mesh.origin).cast<float>());
     }
   }
   const auto count = static_cast<std::uint32_t>(profile.size());

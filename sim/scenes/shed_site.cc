@@ -228,7 +228,8 @@ SceneInfo shed_site_scene() {
           .parameters = {{"tree_line_m", 1000, 600, 1500, "length of the line of trees"},
                          {"leaf_density", 1, 0.3, 4, "sprays of leaves on every tree; 1: some 450"},
                          night_parameter()},
-          .build = build_shed_site};
+          .build = build_shed_site,
+          .usual_lux = kStreetLampLux};
 }
 
 }  // namespace plumbline

@@ -62,7 +62,8 @@ SceneInfo street_scene() {
                          {"moving_cars_per_km", 5, 0, 20, "in the lane opposite to the tour"},
                          {"leaf_density", 1, 0.3, 4, "sprays of leaves on every tree; 1: some 450"},
                          night_parameter()},
-          .build = build_street};
+          .build = build_street,
+          .usual_lux = kStreetLampLux};
 }
 
 }  // namespace plumbline

@@ -189,7 +189,8 @@ SceneInfo trail_scene() {
                          {"hilliness", 1, 0, 2, "of the path between stairs; 1: gradients to 20 %"},
                          {"leaf_density", 1, 0.3, 3, "sprays of leaves on every tree; 1: some 350"},
                          night_parameter()},
-          .build = build_trail};
+          .build = build_trail,
+          .usual_lux = kStreetLampLux};
 }
 
 }  // namespace plumbline

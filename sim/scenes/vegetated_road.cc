@@ -124,7 +124,8 @@ SceneInfo vegetated_road_scene() {
           .parameters = {{"length_m", 160, 60, 600, "along its middle"},
                          {"leaf_density", 1, 0.2, 2, "sprays of leaves on every plant; 1: some 1100 on a tree"},
                          night_parameter()},
-          .build = build_vegetated_road};
+          .build = build_vegetated_road,
+          .usual_lux = kStreetLampLux};
 }
 
 }  // namespace plumbline
