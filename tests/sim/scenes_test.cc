@@ -183,10 +183,12 @@ bool is_flown(const Route& route) {
          route.name == "shed_mission" || route.name == "tree_mission";
 }
 
-/// Cars that drive along a route come and go.
+/// Cars that drive along a route come and go, and leaves that hang into a path give way.
 SceneValues without_traffic(const SceneInfo& scene, SceneValues values) {
   for (const SceneParameter& parameter : scene.parameters) {
-    if (parameter.name == "moving_cars_per_km") values[parameter.name] = 0.0;
+    if (parameter.name == "moving_cars_per_km" || parameter.name == "leaf_density") {
+      values[parameter.name] = parameter.min;
+    }
   }
   return values;
 }
