@@ -25,7 +25,6 @@ constexpr double kEyeHeight_m = 1.6;
 struct Options {
   fs::path folder;
   std::vector<std::string> names;
-  SceneValues values;
   std::uint64_t seed = 1;
   double share = -1.0;  // of the route that lies behind; negative: where the most is seen
   std::size_t route = 0;
@@ -211,7 +210,6 @@ int main(int argc, char** argv) {
   app.add_option("--seed", options.seed, "of the world");
   app.add_option("--yaw-deg", options.yaw_deg, "to the left of the route; needs --at");
   app.add_option("--pitch-deg", options.pitch_deg, "down");
-  app.add_option("--parameter", options.values, "NAME VALUE of the scene, as in world.parameters");
   CLI11_PARSE(app, argc, argv);
   try {
     return plumbline::draw_scenes(options);

@@ -58,8 +58,8 @@ std::vector<double> places_along(double length_m, int count) {
 PoseTrack drive(const Route& route, double from_m, double duration_s) {
   constexpr double kStep_s = 5e-3;
   PoseTrack track;
-  for (int i = 0; i * kStep_s <= duration_s + 0.2; ++i) {
-    track.push(i * 5'000'000, above_route(route, from_m + kSpeed_mps * kStep_s * i));
+  for (std::int64_t i = 0; static_cast<double>(i) * kStep_s <= duration_s + 0.2; ++i) {
+    track.push(i * 5'000'000, above_route(route, from_m + kSpeed_mps * kStep_s * static_cast<double>(i)));
   }
   return track;
 }
