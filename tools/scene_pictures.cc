@@ -161,7 +161,7 @@ Options aimed(const World& world, const RayScene& rays, Options options) {
 }
 
 void draw_scene(const SceneInfo& scene, const Options& asked) {
-  World world = World::from_scene(build_scene(scene.name, asked.values, asked.seed), asked.seed);
+  World world = World::from_scene(build_scene(scene.name, {}, asked.seed), asked.seed);
   world.set_light_level(scene.usual_lux);
   const RayScene rays(world);
   if (world.routes().size() <= asked.route) {
