@@ -8,32 +8,12 @@
 #include "scenarios/catalogue.h"
 #include "sensors/lidar.h"
 #include "tools/verify/lidar_firing_check.h"
+#include "tools/verify/lidar_stand.h"
 
 namespace plumbline {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-
-SceneDescription sphere_scene() {
-  SceneDescription scene;
-  scene.mjcf = R"(<mujoco><worldbody><geom type="sphere" size="9"/></worldbody></mujoco>)";
-  return scene;
-}
-
-// All beams return, from 9 m.
-struct Sphere {
-  World world = World::from_scene(sphere_scene(), 1);
-  RayScene rays = RayScene(world);
-  PoseTrack at_rest;
-
-  Sphere() {
-    at_rest.push(0, Pose{});
-    at_rest.push(100'000'000'000, Pose{});
-  }
-  LidarScan scan(const Lidar& lidar, std::int64_t message) const {
-    return lidar.scan({world, rays}, at_rest, message * lidar.period_ns(), message);
-  }
-};
 
 TEST(LidarDevices, FireAtTheTimesAndAnglesOfTheirDataSheets) {
   std::vector<std::string> checked;
@@ -51,7 +31,7 @@ TEST(LidarDevices, FireAtTheTimesAndAnglesOfTheirDataSheets) {
 }
 
 TEST(LidarDevices, TheEncoderTurnsPointsInStepsAboutTheJointsAxis) {
-  const Sphere sphere;
+  const LidarStand sphere(kSphere);
   LidarEffects quantised = LidarEffects::none();
   quantised.quantisation = true;
   const Lidar lidar(catalogue_lidar("utm30lx_sweeping"), Pose{}, 1, quantised);
@@ -65,7 +45,7 @@ TEST(LidarDevices, TheEncoderTurnsPointsInStepsAboutTheJointsAxis) {
 }
 
 TEST(LidarDevices, TwoRunsGiveTheSameBytes) {
-  const Sphere sphere;
+  const LidarStand sphere(kSphere);
   for (const std::string& name : catalogue_names("lidar")) {
     const LidarModel model = catalogue_lidar(name);
     const LidarScan one = sphere.scan(Lidar(model, Pose{}, 3), 4);

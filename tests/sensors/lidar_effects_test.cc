@@ -12,38 +12,10 @@
 #include "sensors/lidar.h"
 #include "sensors/lidar_noise.h"
 #include "tools/verify/lidar_effects_check.h"
+#include "tools/verify/lidar_stand.h"
 
 namespace plumbline {
 namespace {
-
-double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
-
-SceneDescription scene_of(const std::string& geoms, float reflectivity) {
-  SceneDescription scene;
-  scene.mjcf =
-      "<mujoco><asset><material name=\"wall\"/></asset><default><geom material=\"wall\"/></default><worldbody>" +
-      geoms + "</worldbody></mujoco>";
-  Material wall;
-  wall.name = "wall";
-  wall.lidar_reflectivity = reflectivity;
-  scene.materials = {wall};
-  return scene;
-}
-
-struct Place {
-  World world;
-  RayScene rays;
-  PoseTrack at_rest;
-
-  explicit Place(const std::string& geoms, float reflectivity = 0.5F)
-      : world(World::from_scene(scene_of(geoms, reflectivity), 1)), rays(world) {
-    at_rest.push(0, Pose{});
-    at_rest.push(100'000'000'000, Pose{});
-  }
-  LidarScan scan(const Lidar& lidar, std::int64_t message = 0, const OwnBody* own_body = nullptr) const {
-    return lidar.scan({world, rays, own_body}, at_rest, message * lidar.period_ns(), message);
-  }
-};
 
 LidarEffects only(bool LidarEffects::*effect) {
   LidarEffects effects = LidarEffects::none();
@@ -79,7 +51,7 @@ TEST(LidarEffects, EchoesWithinAPulseMergeByTheirStrength) {
 
 // Edges more than a pulse apart: one of the two, or both.
 TEST(LidarEffects, AnEdgeFarBeforeAWallGivesTwoReturnsToThoseWhoAsk) {
-  const Place place(R"(<geom type="box" size="20 20 20"/><geom type="box" size="0.1 0.5 8" pos="6 0 0"/>)");
+  const LidarStand place(R"(<geom type="box" size="20 20 20"/><geom type="box" size="0.1 0.5 8" pos="6 0 0"/>)");
   const LidarEffects effects = only(&LidarEffects::mixed_pixels);
   const LidarScan single = place.scan(Lidar(vlp16(), Pose{}, 1, effects));
   const LidarScan last = place.scan(Lidar(vlp16(), Pose{}, 1, effects, LidarReturns::kLast));
@@ -103,7 +75,7 @@ TEST(LidarEffects, AnEdgeFarBeforeAWallGivesTwoReturnsToThoseWhoAsk) {
 }
 
 TEST(LidarEffects, FogTakesFarSurfacesAndGivesNearReturns) {
-  Place place(R"(<geom type="box" size="40 40 40"/>)");
+  LidarStand place(R"(<geom type="box" size="40 40 40"/>)");
   const Lidar lidar(vlp16(), Pose{}, 1, [] {
     LidarEffects effects;
     effects.mixed_pixels = false;
@@ -122,7 +94,7 @@ TEST(LidarEffects, FogTakesFarSurfacesAndGivesNearReturns) {
 
 TEST(LidarEffects, RainAndDustGiveAFewNearReturnsOfTheOpenSky) {
   const auto returns_of = [](const Atmosphere& atmosphere) {
-    Place place(R"(<geom type="box" size="0.1 0.1 0.1" pos="0 0 -50"/>)");
+    LidarStand place(R"(<geom type="box" size="0.1 0.1 0.1" pos="0 0 -50"/>)");
     place.world.atmosphere = atmosphere;
     const LidarScan scan = place.scan(Lidar(vlp16(), Pose{}, 1));
     for (const LidarPoint& point : scan.points) EXPECT_LT(point.position.norm(), 40.0F);
@@ -141,9 +113,9 @@ TEST(LidarEffects, RainAndDustGiveAFewNearReturnsOfTheOpenSky) {
 }
 
 TEST(LidarEffects, TheVehicleHidesWhatIsBehindIt) {
-  const Place place(R"(<geom type="box" size="4 3 2"/>)");
+  const LidarStand place(R"(<geom type="box" size="4 3 2"/>)");
   // A roof rack 1 m ahead, in the vehicle's frame.
-  World vehicle = World::from_scene(scene_of(R"(<geom type="box" size="0.1 0.5 0.5" pos="2.1 0 0.5"/>)", 0.5F), 1);
+  World vehicle = World::from_scene(lidar_targets(R"(<geom type="box" size="0.1 0.5 0.5" pos="2.1 0 0.5"/>)", 0.5F), 1);
   RayScene vehicle_rays(vehicle);
   const OwnBody own_body{std::move(vehicle), std::move(vehicle_rays),
                          Pose{Eigen::Quaterniond::Identity(), {-1, 0, -0.5}}};

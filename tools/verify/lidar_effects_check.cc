@@ -7,40 +7,12 @@
 #include <vector>
 
 #include "sensors/lidar_noise.h"
+#include "tools/verify/lidar_stand.h"
 
 namespace plumbline {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
-
-SceneDescription scene_of(const std::string& geoms, float reflectivity) {
-  SceneDescription scene;
-  scene.mjcf =
-      "<mujoco><asset><material name=\"wall\"/></asset><default><geom material=\"wall\"/></default><worldbody>" +
-      geoms + "</worldbody></mujoco>";
-  Material wall;
-  wall.name = "wall";
-  wall.lidar_reflectivity = reflectivity;
-  scene.materials = {wall};
-  return scene;
-}
-
-struct Place {
-  World world;
-  RayScene rays;
-  PoseTrack at_rest;
-
-  explicit Place(const std::string& geoms, float reflectivity = 0.5F)
-      : world(World::from_scene(scene_of(geoms, reflectivity), 1)), rays(world) {
-    at_rest.push(0, Pose{});
-    at_rest.push(100'000'000'000, Pose{});
-  }
-  LidarScan scan(const Lidar& lidar, std::int64_t message = 0) const {
-    return lidar.scan({world, rays}, at_rest, message * lidar.period_ns(), message);
-  }
-};
 
 LidarEffects only(bool LidarEffects::*effect) {
   LidarEffects effects = LidarEffects::none();
@@ -49,10 +21,10 @@ LidarEffects only(bool LidarEffects::*effect) {
 }
 
 /// The target's plane, below.
-Place place_with(const LidarTarget& floor) {
+LidarStand place_with(const LidarTarget& floor) {
   const double height_m = floor.range_m * std::cos(floor.incidence_deg * kPi / 180.0);
-  return Place("<geom type=\"plane\" size=\"0 0 1\" pos=\"0 0 " + std::to_string(-height_m) + "\"/>",
-               floor.reflectivity);
+  return LidarStand("<geom type=\"plane\" size=\"0 0 1\" pos=\"0 0 " + std::to_string(-height_m) + "\"/>",
+                    floor.reflectivity);
 }
 
 /// A device with one of its beams, which fires 20,000 times in 0.1 s.
@@ -156,7 +128,7 @@ double chance_of_mixed_pixels() {
     geoms << "<geom type=\"box\" size=\"0.001 0.15 5\" pos=\"" << (kNear_m + 0.001) * std::cos(azimuth) << ' '
           << (kNear_m + 0.001) * std::sin(azimuth) << " 0\" euler=\"0 0 " << azimuth * 180.0 / kPi << "\"/>";
   }
-  const Place place(geoms.str());
+  const LidarStand place(geoms.str());
   LidarModel model = vlp16();
   for (LidarBeam& beam : model.beams) beam.vertical_offset_m = 0.0;
   const Lidar lidar(model, Pose{}, 3, only(&LidarEffects::mixed_pixels));

@@ -8,32 +8,12 @@
 
 #include "scenarios/catalogue.h"
 #include "sensors/lidar.h"
+#include "tools/verify/lidar_stand.h"
 
 namespace plumbline {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-
-SceneDescription sphere_scene() {
-  SceneDescription scene;
-  scene.mjcf = R"(<mujoco><worldbody><geom type="sphere" size="9"/></worldbody></mujoco>)";
-  return scene;
-}
-
-// All beams return, from 9 m.
-struct Sphere {
-  World world = World::from_scene(sphere_scene(), 1);
-  RayScene rays = RayScene(world);
-  PoseTrack at_rest;
-
-  Sphere() {
-    at_rest.push(0, Pose{});
-    at_rest.push(100'000'000'000, Pose{});
-  }
-  LidarScan scan(const Lidar& lidar, std::int64_t message) const {
-    return lidar.scan({world, rays}, at_rest, message * lidar.period_ns(), message);
-  }
-};
 
 Lidar ideal(const std::string& name, double rate_hz = 0.0) {
   LidarModel model = catalogue_lidar(name);
@@ -112,7 +92,7 @@ void see(double error, double& worst) { worst = std::max(worst, std::abs(error))
 double elevation_deg(const Eigen::Vector3d& ray) { return std::atan2(ray.z(), std::hypot(ray.x(), ray.y())) / kDegree; }
 double azimuth_deg(const Eigen::Vector3d& ray) { return std::atan2(ray.y(), ray.x()) / kDegree; }
 
-FiringCheck check_velodyne(const Sphere& sphere, const SpinningCase& device, double rate_hz) {
+FiringCheck check_velodyne(const LidarStand& sphere, const SpinningCase& device, double rate_hz) {
   const Lidar lidar = ideal(device.name, rate_hz);
   FiringCheck check{.device = device.name, .rate_hz = rate_hz};
   const auto period_ns = static_cast<double>(lidar.period_ns());
@@ -140,7 +120,7 @@ FiringCheck check_velodyne(const Sphere& sphere, const SpinningCase& device, dou
   return check;
 }
 
-FiringCheck check_ouster(const Sphere& sphere, int columns) {
+FiringCheck check_ouster(const LidarStand& sphere, int columns) {
   const Lidar lidar = ideal("os1_64_" + std::to_string(columns));
   FiringCheck check{.device = lidar.model().name, .rate_hz = lidar.model().rate_hz};
   check.expected_points = 64LL * columns * 10;
@@ -168,7 +148,7 @@ FiringCheck check_ouster(const Sphere& sphere, int columns) {
 }
 
 /// Steps of 0.25 degrees every 25 ms / 1440, the joint turned about x at 180 degrees per second.
-FiringCheck check_utm30lx(const Sphere& sphere, const std::string& name, int first_step, int last_step,
+FiringCheck check_utm30lx(const LidarStand& sphere, const std::string& name, int first_step, int last_step,
                           const std::function<double(double)>& joint_deg_at) {
   const Lidar lidar = ideal(name);
   FiringCheck check{.device = name, .rate_hz = lidar.model().rate_hz};
@@ -205,7 +185,7 @@ double onwards_deg(double time_s) { return -90.0 + 180.0 * time_s; }
 }  // namespace
 
 std::vector<FiringCheck> check_lidar_firing() {
-  const Sphere sphere;
+  const LidarStand sphere(kSphere);
   std::vector<FiringCheck> checks;
   for (const SpinningCase& device : spinning_cases()) {
     for (const double rate_hz : device.rates_hz) checks.push_back(check_velodyne(sphere, device, rate_hz));
