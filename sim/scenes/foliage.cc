@@ -30,8 +30,8 @@ void add_spray(Scenery& scenery, RandomStream& stream, const std::string& materi
   const auto corner = [&](double angle, double reach) {
     return Vector3d(centre + reach * size * (std::cos(turn + angle) * u + std::sin(turn + angle) * v));
   };
-  scenery.leaf(material, corner(0.0, stream.uniform(0.5, 0.8)), corner(2.1, stream.uniform(0.35, 0.6)),
-               corner(4.2, stream.uniform(0.35, 0.6)));
+  scenery.triangle(material, corner(0.0, stream.uniform(0.5, 0.8)), corner(2.1, stream.uniform(0.35, 0.6)),
+                   corner(4.2, stream.uniform(0.35, 0.6)));
 }
 
 struct Lobe {
@@ -105,7 +105,7 @@ void add_spruce_crown(Scenery& scenery, RandomStream& stream, const Vector3d& fo
     const double width = tree.spray_m * stream.uniform(0.5, 1.0);
     const Vector3d tip = middle + 0.65 * reach * out - Vector3d(0.0, 0.0, droop);
     const Vector3d tilt(0.0, 0.0, stream.uniform(-0.2, 0.2) * width);
-    scenery.leaf("foliage_dark", tip, middle + width * side + tilt, middle - width * side - tilt);
+    scenery.triangle("foliage_dark", tip, middle + width * side + tilt, middle - width * side - tilt);
   }
 }
 
@@ -211,8 +211,8 @@ void add_grass_tuft(Scenery& scenery, RandomStream& stream, const Vector3d& foot
     const Vector3d lean(stream.uniform(-0.35, 0.35) * height_m, stream.uniform(-0.35, 0.35) * height_m, 0.0);
     const Vector3d base = foot + Vector3d(stream.uniform(-0.12, 0.12), stream.uniform(-0.12, 0.12), -0.02);
     const double width = stream.uniform(0.015, 0.05);
-    scenery.leaf(material, base - width * side, base + width * side,
-                 base + lean + Vector3d(0.0, 0.0, height_m * stream.uniform(0.6, 1.2)));
+    scenery.triangle(material, base - width * side, base + width * side,
+                     base + lean + Vector3d(0.0, 0.0, height_m * stream.uniform(0.6, 1.2)));
   }
 }
 

@@ -14,7 +14,7 @@ Eigen::Vector3f tint(float red, float green, float blue) {
 }  // namespace
 
 const std::vector<Material>& scene_palette() {
-  // name, pattern, albedo, contrast, reflectivity at 905 nm
+  // name, pattern, albedo, contrast, reflectivity at 905 nm, tint, two-sided (leaves and blades)
   static const std::vector<Material> materials = {
       {"concrete_pale", Pattern::kConcrete, 0.58F, 1.0F, 0.50F, tint(1.0F, 0.98F, 0.94F)},
       {"concrete_grey", Pattern::kConcrete, 0.42F, 1.0F, 0.40F},
@@ -109,12 +109,12 @@ const std::vector<Material>& scene_palette() {
       {"paving", Pattern::kBrick, 0.36F, 0.9F, 0.36F},
       {"gravel", Pattern::kGravel, 0.32F, 1.0F, 0.34F, tint(1.0F, 0.93F, 0.80F)},
       {"field", Pattern::kGravel, 0.17F, 1.0F, 0.26F, tint(1.0F, 0.72F, 0.50F)},
-      {"grass", Pattern::kGrass, 0.16F, 1.0F, 0.46F, tint(0.62F, 1.0F, 0.30F)},
-      {"grass_dry", Pattern::kGrass, 0.26F, 1.0F, 0.48F, tint(1.0F, 0.92F, 0.48F)},
-      {"foliage_green", Pattern::kFoliage, 0.15F, 1.0F, 0.50F, tint(0.55F, 1.0F, 0.28F)},
-      {"foliage_pale", Pattern::kFoliage, 0.22F, 1.0F, 0.52F, tint(0.72F, 1.0F, 0.42F)},
-      {"foliage_dark", Pattern::kFoliage, 0.09F, 1.0F, 0.42F, tint(0.50F, 1.0F, 0.45F)},
-      {"foliage_yellow", Pattern::kFoliage, 0.26F, 1.0F, 0.52F, tint(1.0F, 0.96F, 0.30F)},
+      {"grass", Pattern::kGrass, 0.16F, 1.0F, 0.46F, tint(0.62F, 1.0F, 0.30F), true},
+      {"grass_dry", Pattern::kGrass, 0.26F, 1.0F, 0.48F, tint(1.0F, 0.92F, 0.48F), true},
+      {"foliage_green", Pattern::kFoliage, 0.15F, 1.0F, 0.50F, tint(0.55F, 1.0F, 0.28F), true},
+      {"foliage_pale", Pattern::kFoliage, 0.22F, 1.0F, 0.52F, tint(0.72F, 1.0F, 0.42F), true},
+      {"foliage_dark", Pattern::kFoliage, 0.09F, 1.0F, 0.42F, tint(0.50F, 1.0F, 0.45F), true},
+      {"foliage_yellow", Pattern::kFoliage, 0.26F, 1.0F, 0.52F, tint(1.0F, 0.96F, 0.30F), true},
       {"bark", Pattern::kGravel, 0.12F, 1.0F, 0.30F, tint(1.0F, 0.80F, 0.62F)},
       {"bark_birch", Pattern::kGravel, 0.55F, 1.0F, 0.50F},
       {"rock", Pattern::kConcrete, 0.30F, 1.0F, 0.35F, tint(1.0F, 0.96F, 0.90F)},

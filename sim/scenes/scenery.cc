@@ -50,10 +50,6 @@ void Scenery::quad(const std::string& material, const Vector3d& a, const Vector3
   add(batch(material, a), {a, b, c, d}, {{0, 1, 2}, {0, 2, 3}});
 }
 
-void Scenery::leaf(const std::string& material, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-  add(batch(material, a), {a, b, c}, {{0, 1, 2}, {0, 2, 1}});
-}
-
 void Scenery::sheet(const std::string& material, const Vector3d& a, const Vector3d& b, const Vector3d& c,
                     const Vector3d& d) {
   add(batch(material, a), {a, b, c, d}, {{0, 1, 2}, {0, 2, 3}, {0, 2, 1}, {0, 3, 2}});

@@ -23,8 +23,7 @@ class Scenery {
                 const Eigen::Vector3d& c);
   void quad(const std::string& material, const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
             const Eigen::Vector3d& d);
-  /// Thin things, seen from both sides.
-  void leaf(const std::string& material, const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+  /// A thin thing, seen from both sides whatever its material. (Leaves are single triangles of two-sided materials.)
   void sheet(const std::string& material, const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
              const Eigen::Vector3d& d);
 

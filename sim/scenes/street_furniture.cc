@@ -68,7 +68,7 @@ void add_planter(Scenery& scenery, RandomStream& stream, const Pose& frame) {
     const Vector3d foot(stream.uniform(-half, half), stream.uniform(-0.3, 0.3), 0.45);
     const Vector3d tip =
         foot + Vector3d(stream.uniform(-0.2, 0.2), stream.uniform(-0.2, 0.2), stream.uniform(0.2, 0.6));
-    scenery.leaf("foliage_green", frame * foot, frame * Vector3d(foot + Vector3d(0.1, 0.1, 0.15)), frame * tip);
+    scenery.triangle("foliage_green", frame * foot, frame * Vector3d(foot + Vector3d(0.1, 0.1, 0.15)), frame * tip);
   }
 }
 
