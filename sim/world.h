@@ -77,6 +77,7 @@ struct Route {
   std::string name;
   std::vector<Eigen::Vector3d> points;  ///< on the ground, or in the air where flown; neighbours 0.5 m to 20 m apart
   bool closed = false;                  ///< the last point leads to the first
+  bool flown = false;                   ///< in the air
 };
 
 /// A body of the scene's MJCF (mocap="true", child of the world, its geoms about its origin, x forward) that drives

@@ -199,7 +199,7 @@ SceneDescription build_building(const SceneValues& values, std::uint64_t world_s
   add_entrance(writer, walls[0]);
   SceneDescription scene = writer.finish("building", scene_palette(), 0.0, 0.0);
   light_by_day(scene);
-  scene.routes = {rectangular_route("around", Eigen::Vector3d::Zero(), plan.way_half(), 3.0), flight_over(plan)};
+  scene.routes = {rectangular_route("around", Eigen::Vector3d::Zero(), plan.way_half(), 3.0), flown(flight_over(plan))};
   return scene;
 }
 

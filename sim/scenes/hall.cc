@@ -168,7 +168,7 @@ Route figure_of_eight(const Plan& plan) {
   const double y = plan.half_width - 6.5;
   const double low = std::max(3.0, 0.3 * plan.height);
   const double high = 0.6 * plan.height;
-  Route route{.name = "figure_of_eight", .points = {}, .closed = true};
+  Route route{.name = "figure_of_eight", .points = {}, .closed = true, .flown = true};
   for (int i = 0; i < points; ++i) {
     const double angle = 2.0 * M_PI * i / points;
     route.points.emplace_back(x * std::sin(angle), y * std::sin(2.0 * angle),
@@ -197,7 +197,7 @@ SceneDescription build_hall(const SceneValues& values, std::uint64_t world_seed)
   add_floor_crates(writer, plan);
   add_lamps(writer, plan);
   SceneDescription scene = writer.finish("hall", scene_palette(), 40.0, 0.0);
-  scene.routes = {figure_of_eight(plan), level_flight(plan)};
+  scene.routes = {figure_of_eight(plan), flown(level_flight(plan))};
   return scene;
 }
 

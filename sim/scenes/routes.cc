@@ -57,6 +57,11 @@ Route rectangular_route(std::string name, const Eigen::Vector3d& centre, const E
   return make_route(std::move(name), {at(0.0, -y), at(x, -y), at(x, y), at(-x, y), at(-x, -y)}, turn_radius_m, true);
 }
 
+Route flown(Route route) {
+  route.flown = true;
+  return route;
+}
+
 double length_of(const Route& route) {
   double length = 0.0;
   for (std::size_t i = 1; i < route.points.size(); ++i) length += (route.points[i] - route.points[i - 1]).norm();

@@ -18,6 +18,9 @@ Route make_route(std::string name, const std::vector<Eigen::Vector3d>& corners, 
 Route rectangular_route(std::string name, const Eigen::Vector3d& centre, const Eigen::Vector2d& half_size,
                         double turn_radius_m);
 
+/// The same, in the air.
+Route flown(Route route);
+
 double length_of(const Route& route);
 
 }  // namespace plumbline

@@ -1,5 +1,7 @@
 #include "sim/scenes/shed_site.h"
 
+#include "sim/scenes/routes.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -178,30 +180,30 @@ void add_routes(Outdoors& outdoors, const Ground& ground) {
                                   {-20.0, -14.0, 0.0}},
                                  true));
   constexpr double kLow_m = 2.0;
-  routes.push_back(route_through("shed_mission", ground,
-                                 {{15.0, 0.0, 1.2},
-                                  {15.0, 0.0, kLow_m},
-                                  {50.0, 0.0, kLow_m},
-                                  {70.0, 0.0, 3.0},
-                                  {90.0, 0.0, kLow_m},
-                                  {far + 18.2, 0.0, kLow_m},
-                                  {far + 30.2, 14.0, 5.0},
-                                  {far + 18.2, 26.0, 8.0},
-                                  {-10.0, 26.0, 8.0},
-                                  {-22.0, 12.0, 4.0},
-                                  {-14.0, 0.0, kLow_m},
-                                  {13.5, 0.0, kLow_m},
-                                  {13.5, 0.0, 1.2}},
-                                 false));
+  routes.push_back(flown(route_through("shed_mission", ground,
+                                       {{15.0, 0.0, 1.2},
+                                        {15.0, 0.0, kLow_m},
+                                        {50.0, 0.0, kLow_m},
+                                        {70.0, 0.0, 3.0},
+                                        {90.0, 0.0, kLow_m},
+                                        {far + 18.2, 0.0, kLow_m},
+                                        {far + 30.2, 14.0, 5.0},
+                                        {far + 18.2, 26.0, 8.0},
+                                        {-10.0, 26.0, 8.0},
+                                        {-22.0, 12.0, 4.0},
+                                        {-14.0, 0.0, kLow_m},
+                                        {13.5, 0.0, kLow_m},
+                                        {13.5, 0.0, 1.2}},
+                                       false)));
   constexpr double kTurn_m = kGap_m - 18.0;
-  routes.push_back(route_through("tree_mission", ground,
-                                 {{30.0, 30.0, 1.2},
-                                  {40.0, 30.0, 20.0},
-                                  {kTurn_m, 30.0, 20.0},
-                                  {kTurn_m + 18.0, 34.0, 14.0},
-                                  {kTurn_m + 20.0, kTreeLine_m, kLow_m},
-                                  {60.0, kTreeLine_m, kLow_m}},
-                                 false));
+  routes.push_back(flown(route_through("tree_mission", ground,
+                                       {{30.0, 30.0, 1.2},
+                                        {40.0, 30.0, 20.0},
+                                        {kTurn_m, 30.0, 20.0},
+                                        {kTurn_m + 18.0, 34.0, 14.0},
+                                        {kTurn_m + 20.0, kTreeLine_m, kLow_m},
+                                        {60.0, kTreeLine_m, kLow_m}},
+                                       false)));
   routes.push_back(route_through(
       "drive", ground, {{-10.0, 34.0, 0.0}, {707.5, 34.0, 0.0}, {707.5, 20.0, 0.0}, {-10.0, 20.0, 0.0}}, true));
 }

@@ -50,7 +50,7 @@ SceneDescription build_sphere(const SceneValues& values, std::uint64_t world_see
   writer.lamp({Eigen::Vector3d::Zero(), stream.uniform(3.0, 4.0) * radius * radius, 4.0 * radius});
   SceneDescription scene = writer.finish("sphere", scene_palette(), 30.0, 0.0);
   const double half = 0.25 * radius;
-  scene.routes = {rectangular_route("in_the_air", {0.0, 0.0, 0.1 * radius}, {half, half}, 0.4 * half)};
+  scene.routes = {flown(rectangular_route("in_the_air", {0.0, 0.0, 0.1 * radius}, {half, half}, 0.4 * half))};
   return scene;
 }
 

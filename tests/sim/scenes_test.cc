@@ -177,12 +177,6 @@ void expect_walkable(const RayScene& rays, const Eigen::Vector3d& point, const E
   }
 }
 
-bool is_flown(const Route& route) {
-  return route.name == "figure_of_eight" || route.name == "level" || route.name == "over_the_roof" ||
-         route.name == "in_the_air" || route.name == "flight" || route.name == "crossing" ||
-         route.name == "shed_mission" || route.name == "tree_mission";
-}
-
 /// Cars that drive along a route come and go.
 SceneValues without_traffic(const SceneInfo& scene, SceneValues values) {
   for (const SceneParameter& parameter : scene.parameters) {
@@ -212,11 +206,11 @@ TEST(SceneRoutes, EverySceneHasRoutesThatCanBeWalkedOrFlown) {
           const Eigen::Vector3d from = route.points[i];
           const Eigen::Vector3d leg = route.points[(i + 1) % route.points.size()] - from;
           ASSERT_LE(leg.norm(), 5.0);
-          ASSERT_FALSE(rays.cast(from + Eigen::Vector3d(0.0, 0.0, is_flown(route) ? 0.0 : 1.5), leg.normalized(), 0.0,
-                                 leg.norm())
-                           .hit);
+          ASSERT_FALSE(
+              rays.cast(from + Eigen::Vector3d(0.0, 0.0, route.flown ? 0.0 : 1.5), leg.normalized(), 0.0, leg.norm())
+                  .hit);
           for (const double share : {0.0, 0.33, 0.67}) {
-            if (!is_flown(route)) expect_walkable(rays, from + share * leg, leg);
+            if (!route.flown) expect_walkable(rays, from + share * leg, leg);
           }
           if (::testing::Test::HasFailure()) return;
         }
