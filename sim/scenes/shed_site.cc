@@ -1,7 +1,5 @@
 #include "sim/scenes/shed_site.h"
 
-#include "sim/scenes/routes.h"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -13,6 +11,7 @@
 #include "sim/scenes/outdoors.h"
 #include "sim/scenes/palette.h"
 #include "sim/scenes/ribbon.h"
+#include "sim/scenes/routes.h"
 #include "sim/scenes/street_furniture.h"
 
 namespace plumbline {
