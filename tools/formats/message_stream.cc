@@ -117,10 +117,11 @@ class Fields {
   const char* next_;
 };
 
-// Each gives nothing if the payload's size is not the one that its fields ask for.
+/// A payload whose size is not the one that its fields ask for.
+struct WrongSize {};
 
-std::optional<SensorPayload> imu_of(const std::string& payload) {
-  if (payload.size() != sizeof(std::int64_t) + 6 * sizeof(double)) return std::nullopt;
+SensorPayload imu_of(const std::string& payload) {
+  if (payload.size() != sizeof(std::int64_t) + 6 * sizeof(double)) throw WrongSize();
   Fields fields(payload);
   ImuSample sample;
   sample.stamp_ns = fields.take<std::int64_t>();
@@ -130,8 +131,8 @@ std::optional<SensorPayload> imu_of(const std::string& payload) {
 }
 
 template <typename Frame, typename Pixel>
-std::optional<SensorPayload> image_of(const std::string& payload, std::vector<Pixel> Frame::*pixels) {
-  if (payload.size() < kImageHeadSize) return std::nullopt;
+SensorPayload image_of(const std::string& payload, std::vector<Pixel> Frame::*pixels) {
+  if (payload.size() < kImageHeadSize) throw WrongSize();
   Fields fields(payload);
   Frame frame;
   frame.stamp_ns = fields.take<std::int64_t>();
@@ -141,7 +142,7 @@ std::optional<SensorPayload> image_of(const std::string& payload, std::vector<Pi
   // No overflow: each is below 2^28 where it is not refused.
   if (width > kMostPayloadBytes || height > kMostPayloadBytes ||
       width * height * sizeof(Pixel) != payload.size() - kImageHeadSize) {
-    return std::nullopt;
+    throw WrongSize();
   }
   frame.width = static_cast<int>(width);
   frame.height = static_cast<int>(height);
@@ -149,8 +150,8 @@ std::optional<SensorPayload> image_of(const std::string& payload, std::vector<Pi
   return frame;
 }
 
-std::optional<SensorPayload> scan_of(const std::string& payload) {
-  if (payload.size() < kScanHeadSize) return std::nullopt;
+SensorPayload scan_of(const std::string& payload) {
+  if (payload.size() < kScanHeadSize) throw WrongSize();
   Fields fields(payload);
   LidarScan scan;
   scan.stamp_ns = fields.take<std::int64_t>();
@@ -158,7 +159,7 @@ std::optional<SensorPayload> scan_of(const std::string& payload) {
   scan.sweep = fields.take<std::int64_t>();
   scan.ends_sweep = fields.take<std::uint32_t>() != 0;
   const std::size_t count = fields.take<std::uint32_t>();
-  if (count * kPointSize != payload.size() - kScanHeadSize) return std::nullopt;
+  if (count * kPointSize != payload.size() - kScanHeadSize) throw WrongSize();
   scan.points.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const auto point = fields.take<PointBytes>();
@@ -167,7 +168,7 @@ std::optional<SensorPayload> scan_of(const std::string& payload) {
   return scan;
 }
 
-std::optional<SensorPayload> payload_of(Kind kind, const std::string& payload) {
+SensorPayload payload_of(Kind kind, const std::string& payload) {
   switch (kind) {
     case Kind::kImu:
       return imu_of(payload);
@@ -180,7 +181,7 @@ std::optional<SensorPayload> payload_of(Kind kind, const std::string& payload) {
     case Kind::kEnd:
       break;
   }
-  return std::nullopt;
+  throw WrongSize();
 }
 
 }  // namespace
@@ -267,11 +268,13 @@ std::optional<SensorMessage> MessageStreamReader::read() {
     return std::nullopt;
   }
   const std::string payload = read_bytes(size, "the payload");
-  std::optional<SensorPayload> message = payload_of(Kind{kind}, payload);
-  if (!message) fail("a payload of " + std::to_string(size) + " bytes, which is not what its fields ask for");
   if (delivered_ns_ && delivery_ns < *delivered_ns_) fail("delivery_ns goes back");
   delivered_ns_ = delivery_ns;
-  return SensorMessage{std::move(*message), delivery_ns, 0.0, {}};
+  try {
+    return SensorMessage{payload_of(Kind{kind}, payload), delivery_ns, 0.0, {}};
+  } catch (const WrongSize&) {
+    fail("a payload of " + std::to_string(size) + " bytes, which is not what its fields ask for");
+  }
 }
 
 void MessageStreamReader::fail(const std::string& what) const {
