@@ -44,7 +44,7 @@ void read_scenario(ConfigReader& reader, Scenario& scenario) {
   }
   if (const ConfigNode* faults = reader.find("faults")) read_faults(*faults, "faults", scenario.faults);
   reader.section("estimator", [&](ConfigReader& estimator) {
-    read_estimator(estimator, scenario.estimator_name, scenario.estimator);
+    read_estimator(estimator, scenario.estimator_name, scenario.estimator_directory, scenario.estimator);
   });
   reader.section("expect", [&](ConfigReader& expect) { read_expect(expect, scenario.expect, scenario.expect_status); });
   reader.finish();
