@@ -5,11 +5,11 @@
 #include <optional>
 
 #include "estimator/geometry/interpolation.h"
-#include "estimator/vision/corner_detector.h"
 #include "estimator/vision/depth_map.h"
-#include "estimator/vision/feature_tracker.h"
+#include "estimator/vision/feature_source.h"
 #include "estimator/vision/lens_pixels.h"
 #include "estimator/vision/motion_constraints.h"
+#include "estimator/vision/stereo_depth.h"
 #include "estimator/vision/triangulation.h"
 
 namespace plumbline {
@@ -25,13 +25,14 @@ constexpr double kAnchorMaxScaleChange = 0.08;
 constexpr double kAnchorMaxRoll = 0.1;  // [rad]
 
 struct Feature {
+  std::int64_t id = 0;
   FeatureSighting sighting;                         ///< in pixels of the ideal pinhole
   Eigen::Vector2f pixel = Eigen::Vector2f::Zero();  ///< now, in the image as it came; so are the next two
   Eigen::Vector2f keyframe_pixel = Eigen::Vector2f::Zero();
   Eigen::Vector2f anchor_pixel = Eigen::Vector2f::Zero();
   double anchor_scale = 1.0;  ///< z^c / z^l when the anchor was taken
   InverseDepth triangulated;  ///< in the key-frame, from its whole track
-  TrackedFeature::Depth depth_source = TrackedFeature::Depth::kNone;
+  DepthSource depth_source = DepthSource::kNone;
   bool epipolar = false;                                    ///< which row kind this image gives
   Eigen::Matrix2d whitening = Eigen::Matrix2d::Identity();  ///< of its reprojection rows, else unused
   bool inlier = true;
@@ -42,6 +43,17 @@ SolveResult unsolved(const Pose& guess) {
   SolveResult result;
   result.pose = guess;
   return result;
+}
+
+TrackedFeature::Depth shown(DepthSource source) {
+  switch (source) {
+    case DepthSource::kNone:
+      return TrackedFeature::Depth::kNone;
+    case DepthSource::kTriangulated:
+      return TrackedFeature::Depth::kTriangulated;
+    default:
+      return TrackedFeature::Depth::kMeasured;
+  }
 }
 
 double scale_of(const CameraMotion& motion, const Feature& feature) {
@@ -60,21 +72,23 @@ struct VisualOdometry::Impl {
   Impl(const Calibration& calibration, const VisionConfig& settings, bool with_remapping)
       : camera(calibration.camera),
         body_from_camera(calibration.body_from_camera),
-        noise(calibration.camera_noise),
+        further_cameras(calibration.further_cameras),
         config(settings),
         remapping(with_remapping),
+        source(calibration.camera, calibration.camera_noise),
         depth_map(calibration.camera, depth_config(calibration, settings)) {}
 
   static DepthMapConfig depth_config(const Calibration& calibration, const VisionConfig& settings) {
     DepthMapConfig depth;
     depth.max_age_s = settings.depth_max_age_s;
-    depth.range_sigma_m = calibration.lidar_range_sigma_m;
+    depth.lidar.constant_m = calibration.lidar_range_sigma_m;
     return depth;
   }
 
-  bool take_image(const CameraFrame& frame);
+  template <typename Frame>
+  SolveResult process(const Frame& frame, const PosePrior& prior);
   void track(const Pose& predicted_keyframe_from_body);
-  std::vector<Eigen::Vector2f> predict(const Pose& predicted_keyframe_from_body) const;
+  std::vector<FeatureSource::Sought> predict(const Pose& predicted_keyframe_from_body) const;
   void choose_rows(const PosePrior& prior);
   SolveResult solve_motion(const PosePrior& prior);
   void judge(const SolveResult& result);
@@ -85,15 +99,18 @@ struct VisualOdometry::Impl {
   void carry_tracks_into_new_keyframe(const Pose& world_from_body);
   void refill();
   void give_depth(const Pose& world_from_body);
+  template <typename Frame, typename Measure>
+  void give_stereo_depth(const Frame& right, const Measure& measure);
 
   CameraIntrinsics camera;
   Pose body_from_camera;
-  CameraNoise noise;
+  std::vector<FurtherCamera> further_cameras;
   VisionConfig config;
   bool remapping = true;
 
-  FeatureTracker tracker;
+  FeatureSource source;
   DepthMap depth_map;
+  std::optional<StereoDepth> stereo;  ///< made when the first frame of a second grey camera comes
   std::vector<Feature> features;
   bool has_image = false;
   std::int64_t newest_ns = 0;
@@ -112,24 +129,47 @@ VisualOdometry::VisualOdometry(VisualOdometry&&) noexcept = default;
 VisualOdometry& VisualOdometry::operator=(VisualOdometry&&) noexcept = default;
 VisualOdometry::~VisualOdometry() = default;
 
-void VisualOdometry::add_depth_points(std::int64_t stamp_ns, const std::vector<Eigen::Vector3f>& points_in_world) {
+void VisualOdometry::add_depth_points(std::int64_t stamp_ns, DepthSource source,
+                                      const std::vector<Eigen::Vector3f>& points_in_world) {
   std::optional<Pose> world_from_camera;
   if (impl_->world_from_keyframe) {
     world_from_camera = *impl_->world_from_keyframe * impl_->keyframe_from_newest * impl_->body_from_camera;
   }
-  impl_->depth_map.add(stamp_ns, points_in_world, world_from_camera);
+  impl_->depth_map.add(stamp_ns, source, points_in_world, world_from_camera);
 }
 
 SolveResult VisualOdometry::process(const CameraFrame& frame, const PosePrior& keyframe_from_body) {
-  Impl& m = *impl_;
-  m.solved = false;
-  if (!m.take_image(frame) || !m.world_from_keyframe) return unsolved(keyframe_from_body.mean);
-  m.track(keyframe_from_body.mean);
-  m.choose_rows(keyframe_from_body);
-  const SolveResult result = m.solve_motion(keyframe_from_body);
-  m.judge(result);
-  m.renew_anchor();
+  return impl_->process(frame, keyframe_from_body);
+}
+
+SolveResult VisualOdometry::process(const PointFrame& frame, const PosePrior& keyframe_from_body) {
+  return impl_->process(frame, keyframe_from_body);
+}
+
+template <typename Frame>
+SolveResult VisualOdometry::Impl::process(const Frame& frame, const PosePrior& prior) {
+  solved = false;
+  has_image = source.take(frame);
+  if (!has_image) return unsolved(prior.mean);
+  newest_ns = frame.stamp_ns;
+  if (!world_from_keyframe) return unsolved(prior.mean);
+  track(prior.mean);
+  choose_rows(prior);
+  const SolveResult result = solve_motion(prior);
+  judge(result);
+  renew_anchor();
   return result;
+}
+
+void VisualOdometry::add_stereo(const CameraFrame& right) {
+  impl_->give_stereo_depth(right, [&](StereoDepth& stereo, const auto& features) {
+    return stereo.measure(impl_->source.image(), right, features);
+  });
+}
+
+void VisualOdometry::add_stereo(const PointFrame& right) {
+  impl_->give_stereo_depth(
+      right, [&](const StereoDepth& stereo, const auto& features) { return stereo.measure(right, features); });
 }
 
 bool VisualOdometry::wants_keyframe() const {
@@ -148,7 +188,7 @@ void VisualOdometry::start_keyframe(const Pose& world_from_body) {
   m.carry_tracks_into_new_keyframe(world_from_body);
   m.refill();
   m.give_depth(world_from_body);
-  m.tracker.anchor_here();
+  m.source.anchor_here();
   m.world_from_keyframe = world_from_body;
   m.keyframe_ns = m.newest_ns;
   m.keyframe_features = m.features.size();
@@ -160,28 +200,19 @@ std::vector<TrackedFeature> VisualOdometry::features() const {
   std::vector<TrackedFeature> tracked;
   tracked.reserve(impl_->features.size());
   for (const Feature& f : impl_->features) {
-    tracked.push_back({f.pixel, f.keyframe_pixel, f.depth_source, f.inlier});
+    tracked.push_back({f.pixel, f.keyframe_pixel, shown(f.depth_source), f.inlier});
   }
   return tracked;
 }
 
-bool VisualOdometry::Impl::take_image(const CameraFrame& frame) {
-  has_image = frame.width == camera.width && frame.height == camera.height && frame.width > 0 && frame.height > 0 &&
-              frame.pixels.size() == static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
-  if (!has_image) return false;
-  tracker.set_image(frame);
-  newest_ns = frame.stamp_ns;
-  return true;
-}
-
 /// Where the features should be: by depth and motion where the depth is known, else where the rotation since the last
 /// image moves them.
-std::vector<Eigen::Vector2f> VisualOdometry::Impl::predict(const Pose& predicted_keyframe_from_body) const {
+std::vector<FeatureSource::Sought> VisualOdometry::Impl::predict(const Pose& predicted_keyframe_from_body) const {
   const CameraMotion from_keyframe = camera_motion(predicted_keyframe_from_body, body_from_camera);
   const CameraMotion from_last =
       camera_motion(keyframe_from_newest.inverse() * predicted_keyframe_from_body, body_from_camera);
-  std::vector<Eigen::Vector2f> predicted;
-  predicted.reserve(features.size());
+  std::vector<FeatureSource::Sought> sought;
+  sought.reserve(features.size());
   for (const Feature& f : features) {
     Eigen::Vector3d point = from_last.camera_from_keyframe_rotation * ray_through(camera, f.sighting.pixel);
     if (f.sighting.depth.known()) {
@@ -189,17 +220,14 @@ std::vector<Eigen::Vector2f> VisualOdometry::Impl::predict(const Pose& predicted
               f.sighting.depth.mean * from_keyframe.camera_from_keyframe_translation;
     }
     const bool in_front = point.z() > 0.05;
-    predicted.push_back(in_front ? image_pixel(camera, project(camera, point)) : f.pixel);
+    sought.push_back({f.id, f.anchor_pixel, in_front ? image_pixel(camera, project(camera, point)) : f.pixel});
   }
-  return predicted;
+  return sought;
 }
 
 /// Moves the features to where the newest image shows them and forgets those that it does not show.
 void VisualOdometry::Impl::track(const Pose& predicted_keyframe_from_body) {
-  std::vector<Eigen::Vector2f> anchors;
-  anchors.reserve(features.size());
-  for (const Feature& f : features) anchors.push_back(f.anchor_pixel);
-  const FeatureTracker::Tracks tracks = tracker.track(anchors, predict(predicted_keyframe_from_body));
+  const FeatureTracker::Tracks tracks = source.locate(predict(predicted_keyframe_from_body));
   std::size_t kept = 0;
   for (std::size_t i = 0; i < tracks.pixels.size(); ++i) {
     if (tracks.found[i] == 0) continue;
@@ -219,7 +247,7 @@ void VisualOdometry::Impl::choose_rows(const PosePrior& prior) {
   const double rotation_px = camera.fx * std::sqrt(prior.covariance.topLeftCorner<3, 3>().trace());
   for (Feature& f : features) {
     const double least = kLeastParallaxInSigma * std::hypot(f.sighting.pixel_sigma, rotation_px);
-    f.epipolar = f.depth_source == TrackedFeature::Depth::kNone && parallax_px(motion, camera, f.sighting) > least;
+    f.epipolar = f.depth_source == DepthSource::kNone && parallax_px(motion, camera, f.sighting) > least;
     if (!f.epipolar) f.whitening = reprojection_whitening(motion, camera, f.sighting);
   }
 }
@@ -266,7 +294,7 @@ void VisualOdometry::Impl::renew_anchor() {
   change /= static_cast<double>(features.size());
   const double roll = roll_of(motion);
   if (change < kAnchorMaxScaleChange && std::abs(roll - anchor_roll) < kAnchorMaxRoll) return;
-  tracker.anchor_here();
+  source.anchor_here();
   anchor_roll = roll;
   for (Feature& f : features) {
     f.anchor_pixel = f.pixel;
@@ -305,39 +333,67 @@ void VisualOdometry::Impl::carry_tracks_into_new_keyframe(const Pose& world_from
 }
 
 void VisualOdometry::Impl::refill() {
-  std::vector<Eigen::Vector2f> occupied;
-  occupied.reserve(features.size());
-  for (const Feature& f : features) occupied.push_back(f.keyframe_pixel);
+  std::vector<FeatureSource::Seen> present;
+  present.reserve(features.size());
+  for (const Feature& f : features) present.push_back({f.id, f.keyframe_pixel});
   CornerOptions options;
   options.grid_rows = config.grid_rows;
   options.grid_cols = config.grid_cols;
   options.features_per_cell = config.features_per_cell;
-  const GreyView image = tracker.image();
-  for (const Corner& corner : find_corners(image, image_noise_dn(image, noise), occupied, options)) {
+  for (const FeatureSource::Fresh& fresh : source.find_new(present, options)) {
     Feature f;
-    f.pixel = f.keyframe_pixel = f.anchor_pixel = corner.pixel;
-    f.sighting.pixel = pinhole_pixel(camera, corner.pixel);
+    f.id = fresh.id;
+    f.pixel = f.keyframe_pixel = f.anchor_pixel = fresh.pixel;
+    f.sighting.pixel = pinhole_pixel(camera, fresh.pixel);
     f.sighting.keyframe_ray = ray_through(camera, f.sighting.pixel);
-    f.sighting.pixel_sigma = std::hypot(config.pixel_sigma_px, corner.noise_sigma_px);
+    f.sighting.pixel_sigma = std::hypot(config.pixel_sigma_px, fresh.noise_sigma_px);
     features.push_back(f);
   }
 }
 
-/// The lidar's depth first, then the triangulated, then none (thesis 5.2).
+/// The depth map's depth first, then the triangulated, then none (thesis 5.2).
 void VisualOdometry::Impl::give_depth(const Pose& world_from_body) {
   depth_map.look_from(world_from_body * body_from_camera, newest_ns);
   for (Feature& f : features) {
     f.epipolar = false;
-    f.depth_source = TrackedFeature::Depth::kNone;
+    f.depth_source = DepthSource::kNone;
     f.sighting.depth = kFarAway;
     if (const auto depth = depth_map.depth_along(f.sighting.keyframe_ray)) {
-      f.depth_source = TrackedFeature::Depth::kLidar;
-      f.sighting.depth = *depth;
-      f.triangulated = *depth;
+      f.depth_source = depth->source;
+      f.sighting.depth = f.triangulated = depth->depth;
     } else if (converged(f.triangulated)) {
-      f.depth_source = TrackedFeature::Depth::kTriangulated;
+      f.depth_source = DepthSource::kTriangulated;
       f.sighting.depth = f.triangulated;
     }
+  }
+}
+
+/// Where the depth map has nothing: the depth of a pair grows unsure with its square, the lidar's does not.
+template <typename Frame, typename Measure>
+void VisualOdometry::Impl::give_stereo_depth(const Frame& right, const Measure& measure) {
+  // A pair is two frames of one moment, and only a key-frame asks for depth.
+  if (!world_from_keyframe || right.stamp_ns != keyframe_ns || newest_ns != keyframe_ns) return;
+  if (!stereo) {
+    const auto camera_of_frame = std::find_if(further_cameras.begin(), further_cameras.end(),
+                                              [&](const FurtherCamera& c) { return c.camera_id == right.camera_id; });
+    if (camera_of_frame == further_cameras.end()) return;
+    stereo.emplace(camera, body_from_camera, *camera_of_frame);
+  }
+  std::vector<StereoDepth::Feature> lacking;
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    const Feature& f = features[i];
+    if (f.depth_source != DepthSource::kNone && f.depth_source != DepthSource::kTriangulated) continue;
+    lacking.push_back({f.id, f.pixel, f.sighting.keyframe_ray, f.sighting.pixel_sigma, f.triangulated});
+    indices.push_back(i);
+  }
+  const std::vector<std::optional<InverseDepth>> depths = measure(*stereo, lacking);
+  for (std::size_t k = 0; k < depths.size(); ++k) {
+    if (!depths[k]) continue;
+    Feature& f = features[indices[k]];
+    f.triangulated = fuse(f.triangulated, *depths[k]);
+    f.sighting.depth = f.triangulated;
+    f.depth_source = DepthSource::kStereo;
   }
 }
 
