@@ -13,8 +13,8 @@ constexpr float kJumpShare = 0.1F;  // of the depth, from one pixel to the next 
 
 bool smooth_around(const DepthFrame& frame, int column, int row) {
   const auto at = [&](int u, int v) {
-    return frame.depth_m[static_cast<std::size_t>(v) * static_cast<std::size_t>(frame.width) +
-                         static_cast<std::size_t>(u)];
+    return frame
+        .depth_m[static_cast<std::size_t>(v) * static_cast<std::size_t>(frame.width) + static_cast<std::size_t>(u)];
   };
   const float depth = at(column, row);
   if (!std::isfinite(depth) || depth <= 0.0F) return false;

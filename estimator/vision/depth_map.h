@@ -36,7 +36,8 @@ struct MapDepth {
   DepthSource source = DepthSource::kLidar;
 };
 
-/// Depth points of the last seconds, from lidar or depth images, as seen from a key-frame, asked for the depth along a ray (thesis 3.3 and 5.2).
+/// Depth points of the last seconds, from lidar or depth images, as seen from a key-frame, asked for the depth along a
+/// ray (thesis 3.3 and 5.2).
 class DepthMap {
  public:
   DepthMap(const CameraIntrinsics& camera, const DepthMapConfig& config);

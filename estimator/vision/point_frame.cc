@@ -14,8 +14,9 @@ std::vector<PointFrame::Point> sorted_points(const PointFrame& frame) {
 }
 
 const PointFrame::Point* find_point(const std::vector<PointFrame::Point>& sorted, std::int64_t id) {
-  const auto at = std::lower_bound(sorted.begin(), sorted.end(), id,
-                                   [](const PointFrame::Point& point, std::int64_t wanted) { return point.id < wanted; });
+  const auto at =
+      std::lower_bound(sorted.begin(), sorted.end(), id,
+                       [](const PointFrame::Point& point, std::int64_t wanted) { return point.id < wanted; });
   return at != sorted.end() && at->id == id ? &*at : nullptr;
 }
 

@@ -62,7 +62,8 @@ std::optional<Eigen::Vector2f> StereoDepth::search(const GreyView& left_image, c
 std::vector<std::optional<InverseDepth>> StereoDepth::measure(const GreyView& left_image, const CameraFrame& right,
                                                               const std::vector<Feature>& features) {
   std::vector<std::optional<InverseDepth>> depths(features.size());
-  const auto pixels = static_cast<std::size_t>(right_.intrinsics.width) * static_cast<std::size_t>(right_.intrinsics.height);
+  const auto pixels =
+      static_cast<std::size_t>(right_.intrinsics.width) * static_cast<std::size_t>(right_.intrinsics.height);
   if (right.width != right_.intrinsics.width || right.height != right_.intrinsics.height ||
       right.pixels.size() != pixels) {
     return depths;

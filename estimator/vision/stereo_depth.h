@@ -21,10 +21,10 @@ class StereoDepth {
   /// A feature of the left image.
   struct Feature {
     std::int64_t id = 0;
-    Eigen::Vector2f pixel = Eigen::Vector2f::Zero();   ///< in the image as it came
-    Eigen::Vector3d ray = Eigen::Vector3d::UnitZ();    ///< z = 1
-    double pixel_sigma = 0.3;                          ///< [px]
-    InverseDepth expected;                             ///< where it is sought first, if known
+    Eigen::Vector2f pixel = Eigen::Vector2f::Zero();  ///< in the image as it came
+    Eigen::Vector3d ray = Eigen::Vector3d::UnitZ();   ///< z = 1
+    double pixel_sigma = 0.3;                         ///< [px]
+    InverseDepth expected;                            ///< where it is sought first, if known
   };
 
   /// Inverse depths in the left camera, one entry per feature; empty where there is no unambiguous match, all empty

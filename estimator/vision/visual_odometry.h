@@ -42,9 +42,11 @@ class VisualOdometry {
   VisualOdometry& operator=(VisualOdometry&&) noexcept;
   ~VisualOdometry();
 
-  /// Depth points, de-skewed and registered with the estimate, for the depth map.
-  /// @param source  kLidar or kDepthImage
-  void add_depth_points(std::int64_t stamp_ns, DepthSource source, const std::vector<Eigen::Vector3f>& points_in_world);
+  /// De-skewed lidar points, for the depth map. @param world_from_body  the estimate at their time
+  void add_depth_points(std::int64_t stamp_ns, const std::vector<Eigen::Vector3f>& points_in_body,
+                        const Pose& world_from_body);
+  /// A depth image of any camera that the calibration knows.
+  void add_depth_image(const DepthFrame& frame, const Pose& world_from_body);
 
   /// The frame of a further grey camera, used if it shows the moment of a key-frame just started: gives depth to the
   /// features that the depth map does not cover.
