@@ -2,11 +2,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <iterator>
 #include <string>
 #include <vector>
 
 #include "scenarios/config_reader.h"
+#include "scenarios/digest.h"
 #include "scenarios/input_error.h"
 #include "tools/exit_code.h"
 #include "tools/formats/number_text.h"
@@ -106,8 +109,15 @@ void list_rows(const std::vector<SuiteRow>& rows, const SuiteRuns& runs, const s
   }
 }
 
+/// The version and what the program's file really is: it may have been built from what is in no commit.
+std::string program_identity(const fs::path& program) {
+  std::ifstream file(program, std::ios::binary);
+  if (!file) throw InputError(program.string() + ": cannot be read, expected the program plumbline");
+  return program_version() + " " + digest_of(std::string{std::istreambuf_iterator<char>(file), {}}).substr(0, 8);
+}
+
 ExitCode run(const Arguments& arguments) {
-  const std::vector<SuiteRow> rows = plan_suite(read_experiments(arguments.table), program_version());
+  const std::vector<SuiteRow> rows = plan_suite(read_experiments(arguments.table), program_identity(arguments.program));
   const std::vector<SuiteRow> chosen = chosen_rows(rows, arguments.ids);
   SuiteRuns runs(fs::absolute(arguments.out));
   const Publication publication(arguments, rows, runs);

@@ -1,5 +1,6 @@
 #include "tools/thesis/suite_plan.h"
 
+#include <algorithm>
 #include <cctype>
 #include <map>
 
@@ -22,50 +23,65 @@ std::string file_name_of(const std::string& program) {
   return name;
 }
 
-bool is_of_estimator(const std::string& override) { return override.starts_with("estimator."); }
+constexpr const char* kNotOfTheSensors[] = {"estimator", "expect"};
 
 /// All that the sensors depend on.
-std::string sensors_of(const Experiment& experiment, const SuiteRun& run) {
-  ConfigNode keys = read_scenario_files(experiment.scenario, run.overrides);
-  for (const char* key : {"estimator", "expect", "seed"}) keys.entries.erase(key);
-  return std::to_string(run.planned.seed) + "\n" + canonical_yaml(keys);
+std::string sensors_of(ConfigNode keys, std::uint64_t seed) {
+  for (const char* key : kNotOfTheSensors) keys.entries.erase(key);
+  keys.entries.erase("seed");
+  return std::to_string(seed) + "\n" + canonical_yaml(keys);
 }
 
-SuiteRun run_of(const Experiment& experiment, const Configuration& configuration, std::uint64_t seed,
-                const std::string& program) {
-  SuiteRun run;
-  run.label = experiment.id + " " + configuration.name + " seed " + std::to_string(seed);
-  run.scenario = std::filesystem::absolute(experiment.scenario);
-  for (const std::string& override : configuration.overrides) {
-    (is_of_estimator(override) ? run.estimator_overrides : run.overrides).push_back(override);
-  }
-  if (!configuration.estimator.empty()) {
-    run.estimator_overrides.push_back("estimator.name=" + configuration.estimator);
-  }
-  std::vector<std::string> all = run.overrides;
-  all.insert(all.end(), run.estimator_overrides.begin(), run.estimator_overrides.end());
-  const Scenario scenario = load_scenario(experiment.scenario, all, seed);
-  run.planned.estimator = scenario.estimator_name;
-  run.planned.seed = seed;
-  run.planned.scenario_digest = scenario.digest;
-  run.planned.key = scenario.digest + "-" + std::to_string(seed) + "-" + program;
-  return run;
+/// A replay does not know the world, and so not how far mapped points are from its surfaces.
+bool needs_the_world(const Experiment& experiment) {
+  return std::any_of(experiment.checks.begin(), experiment.checks.end(),
+                     [](const ExperimentCheck& check) { return check.figure.starts_with("map_"); });
 }
+
+/// Runs of an experiment, each with the place where its sensors may be found.
+class RunPlanner {
+ public:
+  explicit RunPlanner(const std::string& program) : program_(file_name_of(program)) {}
+
+  SuiteRun plan(const Experiment& experiment, const Configuration& configuration, std::uint64_t seed) {
+    SuiteRun run;
+    run.label = experiment.id + " " + configuration.name + " seed " + std::to_string(seed);
+    run.scenario = std::filesystem::absolute(experiment.scenario);
+    run.overrides = configuration.overrides;
+    if (!configuration.estimator.empty()) run.overrides.push_back("estimator.name=" + configuration.estimator);
+    const Scenario scenario = load_scenario(experiment.scenario, run.overrides, seed);
+    run.planned.estimator = scenario.estimator_name;
+    run.planned.seed = seed;
+    run.planned.scenario_digest = scenario.digest;
+    run.planned.key = scenario.digest + "-" + std::to_string(seed) + "-" + program_;
+
+    const ConfigNode keys = read_scenario_files(experiment.scenario, run.overrides);
+    for (const char* key : kNotOfTheSensors) {
+      const auto found = keys.entries.find(key);
+      if (found != keys.entries.end()) run.replay_keys.push_back(std::string(key) + "=" + flow_yaml(found->second));
+    }
+    run.stream = needs_the_world(experiment) ? run.planned.key
+                                             : streams_.emplace(sensors_of(keys, seed), run.planned.key).first->second;
+    return run;
+  }
+
+ private:
+  std::string program_;
+  std::map<std::string, std::string> streams_;  ///< what sensors depend on -> key of the first run with them
+};
 
 }  // namespace
 
 std::vector<SuiteRow> plan_suite(const std::vector<Experiment>& experiments, const std::string& program) {
   std::vector<SuiteRow> rows;
-  std::map<std::string, std::string> streams;  // what the sensors depend on -> key of the first run with it
+  RunPlanner planner(program);
   for (const Experiment& experiment : experiments) {
     SuiteRow row{experiment, {}, {}};
     for (const Configuration& configuration : experiment.configurations) {
       std::vector<SuiteRun>& runs = row.runs.emplace_back();
       try {
         for (const std::uint64_t seed : experiment.seeds) {
-          runs.push_back(run_of(experiment, configuration, seed, file_name_of(program)));
-          SuiteRun& run = runs.back();
-          run.stream = streams.emplace(sensors_of(experiment, run), run.planned.key).first->second;
+          runs.push_back(planner.plan(experiment, configuration, seed));
         }
       } catch (const InputError& error) {
         runs.clear();

@@ -15,9 +15,9 @@ struct SuiteRun {
       planned;  ///< its key is scenario digest, seed and program version: the same run has the same key in any row
   std::string label;  ///< "ch5_campus vloam seed 1"
   std::filesystem::path scenario;
-  std::vector<std::string> overrides;            ///< KEY=VALUE of world, motion and rig
-  std::vector<std::string> estimator_overrides;  ///< KEY=VALUE of the estimator, its name among them
-  std::string stream;  ///< of its sensors: runs with the same one differ in nothing but their estimator
+  std::vector<std::string> overrides;    ///< KEY=VALUE, of the scenario
+  std::vector<std::string> replay_keys;  ///< KEY=VALUE: all that a replay of its sensors has to be told
+  std::string stream;                    ///< of its sensors: runs with the same one differ in their estimator alone
 };
 
 /// The runs of an experiment: of each configuration, of each seed.

@@ -151,11 +151,15 @@ class Runner {
   Clock::time_point start_ = Clock::now();
 };
 
-void append_overrides(std::vector<std::string>& command, const std::vector<std::string>& overrides) {
-  for (const std::string& override : overrides) {
+/// plumbline VERB WHAT, on one thread, into a directory, with keys set.
+std::vector<std::string> command_line(const std::string& program, const std::string& verb, const fs::path& what,
+                                      const fs::path& directory, const std::vector<std::string>& keys) {
+  std::vector<std::string> command{program, verb, what.string(), "--threads", "1", "--out", directory.string()};
+  for (const std::string& key : keys) {
     command.emplace_back("--set");
-    command.push_back(override);
+    command.push_back(key);
   }
+  return command;
 }
 
 }  // namespace
@@ -163,11 +167,8 @@ void append_overrides(std::vector<std::string>& command, const std::vector<std::
 SuiteCommands plumbline_commands(const std::string& program) {
   SuiteCommands commands;
   commands.run = [program](const SuiteRun& run, const fs::path& directory) {
-    std::vector<std::string> command{
-        program, "run",   run.scenario.string(), "--seed", std::to_string(run.planned.seed), "--threads",
-        "1",     "--out", directory.string()};
-    append_overrides(command, run.overrides);
-    append_overrides(command, run.estimator_overrides);
+    std::vector<std::string> command = command_line(program, "run", run.scenario, directory, run.overrides);
+    command.insert(command.end(), {"--seed", std::to_string(run.planned.seed)});
     return command;
   };
   return commands;
