@@ -1,5 +1,7 @@
 #include "tools/commands/run.h"
 
+#include <tbb/global_control.h>
+
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -11,8 +13,8 @@
 #include "tools/exit_code.h"
 #include "tools/interrupt.h"
 #include "tools/output/run_files.h"
-#include "tools/outside/open_estimator.h"
 #include "tools/output/summary.h"
+#include "tools/outside/open_estimator.h"
 #include "tools/progress_line.h"
 
 namespace plumbline {
@@ -74,9 +76,11 @@ int exit_code_of(const Verdict& verdict) { return interrupted() ? kExitInterrupt
 int run_scenario(const RunArguments& arguments) {
   const Scenario scenario = load(arguments);
   RunDirectory directory(output_of(arguments, scenario));
+  const int threads = threads_of(arguments);
+  // Also of what prepares the world: a run on one thread leaves the other cores to its neighbours.
+  const tbb::global_control at_most(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   const World world = make_world(scenario);
   const RayScene rays(world);
-  const int threads = threads_of(arguments);
   // The session's threads are the run's parallelism; OpenCV's own pool would only crowd them.
   cv::setNumThreads(1);
   directory.open();
