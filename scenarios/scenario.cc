@@ -9,18 +9,6 @@
 namespace plumbline {
 namespace {
 
-/// FNV-1a, 64 bits: stable over machines and years, which is all that provenance asks.
-std::string digest_of(const std::string& text) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const char c : text) {
-    hash ^= static_cast<unsigned char>(c);
-    hash *= 0x100000001b3ULL;
-  }
-  char digits[17];
-  std::snprintf(digits, sizeof(digits), "%016llx", static_cast<unsigned long long>(hash));
-  return digits;
-}
-
 ConfigNode seed_node(std::uint64_t seed) {
   ConfigNode node;
   node.text = std::to_string(seed);
@@ -51,6 +39,18 @@ void read_scenario(ConfigReader& reader, Scenario& scenario) {
 }
 
 }  // namespace
+
+std::string digest_of(const std::string& text) {
+  // FNV-1a, 64 bits.
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const char c : text) {
+    hash ^= static_cast<unsigned char>(c);
+    hash *= 0x100000001b3ULL;
+  }
+  char digits[17];
+  std::snprintf(digits, sizeof(digits), "%016llx", static_cast<unsigned long long>(hash));
+  return digits;
+}
 
 Scenario load_scenario(const std::filesystem::path& path, const std::vector<std::string>& overrides,
                        std::optional<std::uint64_t> seed) {

@@ -8,6 +8,9 @@
 namespace plumbline {
 namespace {
 
+// Before the first message, so that the sweep during which it came has a clock, too.
+constexpr std::int64_t kHeadStart_ns = 250'000'000;
+
 std::unique_ptr<SensorMessage> tick(std::int64_t stamp_ns) {
   ImuSample sample;
   sample.stamp_ns = stamp_ns;
@@ -18,7 +21,7 @@ class Clocked {
  public:
   Clocked(MessageSource messages, std::int64_t period_ns) : messages_(std::move(messages)), period_ns_(period_ns) {
     next_ = messages_();
-    if (next_) last_tick_ns_ = next_->delivery_ns - period_ns_;
+    if (next_) last_tick_ns_ = next_->delivery_ns - kHeadStart_ns - period_ns_;
   }
 
   std::unique_ptr<SensorMessage> next() {

@@ -2,10 +2,12 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "estimator/messages.h"
+#include "scenarios/config_node.h"
 #include "scenarios/recording.h"
 
 /// Recorded data of any format, in and out.
@@ -39,9 +41,10 @@ struct DatasetSettings {
   std::string lidar_model;  ///< of the catalogue: rings, range noise and limits, and the device that rings are told by
   std::string imu_model;    ///< of the catalogue: noise
   PointTimes point_times = PointTimes::kFile;
-  double sweep_s = 0.1;     ///< a revolution's time where the files do not say
-  double clock_hz = 100.0;  ///< of the clock that stands in for a missing IMU
+  std::optional<double> sweep_s;  ///< a revolution's time where the files do not say; otherwise the format's usual
+  double clock_hz = 100.0;        ///< of the clock that stands in for a missing IMU
   RosTopics topics;
+  ConfigNode calibration;       ///< keys of calibration.yaml laid over the dataset's own; a map, or nothing
   std::filesystem::path truth;  ///< a file of its own, instead of the dataset's; empty: none
 };
 
@@ -63,7 +66,7 @@ class DatasetWriter {
 std::unique_ptr<DatasetWriter> make_dataset_writer(const std::string& format, const std::filesystem::path& directory,
                                                    const Calibration& calibration);
 
-/// kitti, euroc, tum, rosbag, rosbag2, plumbline.
+/// Their names.
 const std::vector<std::string>& dataset_formats();
 
 }  // namespace plumbline

@@ -63,8 +63,8 @@ void write_png(const std::filesystem::path& path, const cv::Mat& image) {
 
 template <typename Pixel>
 void check_pixels(const std::filesystem::path& path, int width, int height, const std::vector<Pixel>& pixels) {
-  const bool whole = width > 0 && height > 0 &&
-                     pixels.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  const bool whole =
+      width > 0 && height > 0 && pixels.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   if (!whole) throw std::runtime_error(path.string() + ": the image's size is not that of its pixels");
 }
 

@@ -63,9 +63,9 @@ std::vector<LidarPoint> points_of_bin(const std::filesystem::path& path, const s
 /// A PCD file's header, as far as points need it.
 struct PcdLayout {
   std::size_t points = 0;
-  std::size_t stride = 0;                          // bytes of a point
-  std::size_t columns = 0;                         // numbers of a point
-  std::size_t offset_bytes[4] = {0, 0, 0, 0};      // of x, y, z, intensity
+  std::size_t stride = 0;                      // bytes of a point
+  std::size_t columns = 0;                     // numbers of a point
+  std::size_t offset_bytes[4] = {0, 0, 0, 0};  // of x, y, z, intensity
   std::size_t column_of[4] = {0, 0, 0, 0};
   bool has[4] = {false, false, false, false};
   bool binary = true;
@@ -167,7 +167,8 @@ std::vector<LidarPoint> points_of_ascii(const std::filesystem::path& path, const
   std::string line;
   for (std::size_t i = 0; i < layout.points; ++i) {
     const auto words = std::getline(text, line) ? split_fields(line) : std::vector<std::string_view>{};
-    if (words.size() != layout.columns) throw InputError(path.string() + ": point " + std::to_string(i) + ": cut short");
+    if (words.size() != layout.columns)
+      throw InputError(path.string() + ": point " + std::to_string(i) + ": cut short");
     float xyzi[4] = {0.0F, 0.0F, 0.0F, 0.0F};
     for (std::size_t k = 0; k < 4; ++k) {
       if (layout.has[k]) xyzi[k] = static_cast<float>(parse_number(words[layout.column_of[k]]).value_or(NAN));

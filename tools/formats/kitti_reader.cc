@@ -5,17 +5,16 @@
 #include <optional>
 #include <utility>
 
-#include "scenarios/catalogue.h"
 #include "scenarios/input_error.h"
 #include "scenarios/merged_source.h"
-#include "tools/formats/calibration_yaml.h"
 #include "tools/formats/clock_source.h"
+#include "tools/formats/dataset_calibration.h"
 #include "tools/formats/image_file.h"
 #include "tools/formats/kitti.h"
 #include "tools/formats/kitti_calibration.h"
 #include "tools/formats/kitti_points.h"
 #include "tools/formats/kitti_stamps.h"
-#include "tools/formats/number_text.h"
+#include "tools/formats/recorded_files.h"
 #include "tools/formats/text_table.h"
 #include "tools/formats/truth_file.h"
 
@@ -24,8 +23,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kKittiLidar = "hdl64e";
+constexpr double kKittiSweep_s = 0.10315;  // mean of a raw drive's
 constexpr double kLeastImuRate_hz = 50.0;  // OXTS of synchronised drives comes at 10 Hz: truth, but no IMU
-constexpr std::uintmax_t kMostCalibrationBytes = 1'000'000;
 constexpr std::uintmax_t kMostSideFileBytes = std::uintmax_t{64} << 20;
 constexpr std::int64_t kLongestSweep_ns = 2'000'000'000;  // a point's offset is 32 bits wide
 
@@ -41,11 +41,6 @@ struct Scan {
   ScanTime time;
 };
 
-struct Image {
-  fs::path path;
-  std::int64_t stamp_ns = 0;
-};
-
 fs::path first_that_exists(const std::vector<fs::path>& candidates) {
   std::error_code error;
   for (const fs::path& path : candidates) {
@@ -57,21 +52,24 @@ fs::path first_that_exists(const std::vector<fs::path>& candidates) {
 template <typename T>
 const T& at_number(const std::vector<T>& list, std::int64_t number, const fs::path& list_path) {
   if (number < static_cast<std::int64_t>(list.size())) return list[static_cast<std::size_t>(number)];
-  throw InputError(list_path.string() + ": found " + std::to_string(list.size()) + " lines, but there is a file number " +
-                   std::to_string(number));
+  throw InputError(list_path.string() + ": found " + std::to_string(list.size()) +
+                   " lines, but there is a file number " + std::to_string(number));
 }
 
 /// The files of one drive or sequence and what they say.
 class KittiFolder {
  public:
   KittiFolder(const fs::path& path, const DatasetSettings& settings) : path_(path), settings_(settings) {
+    const bool is_ours = fs::exists(path / kDatasetCalibration);
+    if (settings_.lidar_model.empty() && !is_ours) settings_.lidar_model = kKittiLidar;
     std::error_code error;
     if (!fs::is_directory(path, error)) throw InputError(path.string() + ": no such folder");
     find_scans();
     for (int camera = 0; camera < 2; ++camera) find_images(camera);
     find_imu();
     if (scans_.empty() && images_[0].empty()) {
-      throw InputError(path.string() + ": holds no scans (velodyne_points/data, velodyne, or loose .bin or .pcd files)");
+      throw InputError(path.string() +
+                       ": holds no scans (velodyne_points/data, velodyne, or loose .bin or .pcd files)");
     }
   }
 
@@ -81,8 +79,9 @@ class KittiFolder {
     dataset.calibration = calibration();
     dataset.recording.truth = truth(dataset.calibration);
     take_span(dataset.recording);
-    MessageSource messages = merged_sources(merged_sources(frames(0), frames(1)), scans(dataset.calibration));
-    dataset.recording.messages = dataset.has_imu ? merged_sources(imu(), std::move(messages))
+    MessageSource messages = merged_sources(merged_sources(frame_source(images_[0], 0), frame_source(images_[1], 1)),
+                                            scans(dataset.calibration));
+    dataset.recording.messages = dataset.has_imu ? merged_sources(imu_source(imu_), std::move(messages))
                                                  : with_clock(std::move(messages), settings_.clock_hz);
     return dataset;
   }
@@ -100,22 +99,18 @@ class KittiFolder {
     if (files.empty()) return;
     const auto time_of = scan_times(folder);
     for (const NumberedFile& file : files) scans_.push_back({file, time_of(file.number)});
-    for (std::size_t i = 0; i < scans_.size(); ++i) check_time(scans_[i], i > 0 ? &scans_[i - 1] : nullptr);
+    for (const Scan& scan : scans_) check_time(scan);
   }
 
-  static void check_time(const Scan& scan, const Scan* before) {
+  static void check_time(const Scan& scan) {
     const std::int64_t duration_ns = scan.time.end_ns - scan.time.start_ns;
-    if (duration_ns <= 0 || duration_ns > kLongestSweep_ns) {
-      throw InputError(scan.file.path.string() + ": its scan takes " + std::to_string(duration_ns) +
-                       " ns, allowed are up to 2 s");
-    }
-    if (before != nullptr && scan.time.end_ns <= before->time.end_ns) {
-      throw InputError(scan.file.path.string() + ": its scan does not end after the one before");
-    }
+    if (duration_ns > 0 && duration_ns <= kLongestSweep_ns) return;
+    throw InputError(scan.file.path.string() + ": its scan takes " + std::to_string(duration_ns) +
+                     " ns, allowed are up to 2 s");
   }
 
   std::function<ScanTime(std::int64_t)> scan_times(const fs::path& folder) const {
-    const auto sweep_ns = static_cast<std::int64_t>(std::llround(1e9 * settings_.sweep_s));
+    const auto sweep_ns = static_cast<std::int64_t>(std::llround(1e9 * settings_.sweep_s.value_or(kKittiSweep_s)));
     const fs::path own = path_ / "scans.txt";
     const fs::path raw = folder.parent_path() / "timestamps_start.txt";
     const fs::path middles = first_that_exists({folder.parent_path() / "timestamps.txt", path_ / "times.txt"});
@@ -138,7 +133,9 @@ class KittiFolder {
       };
     }
     const std::int64_t span_ns = compensated() ? 1 : sweep_ns;
-    return [sweep_ns, span_ns](std::int64_t n) { return ScanTime{(n + 1) * sweep_ns - span_ns, (n + 1) * sweep_ns, n, true}; };
+    return [sweep_ns, span_ns](std::int64_t n) {
+      return ScanTime{(n + 1) * sweep_ns - span_ns, (n + 1) * sweep_ns, n, true};
+    };
   }
 
   static std::vector<ScanTime> read_scan_list(const fs::path& path) {
@@ -154,24 +151,22 @@ class KittiFolder {
     const std::string digit = std::to_string(camera);
     const fs::path folder = first_that_exists({path_ / ("image_0" + digit) / "data", path_ / ("image_" + digit)});
     const bool loose = folder.empty() && camera == 0;
-    const auto files = folder.empty() && !loose ? std::vector<NumberedFile>{}
-                                                : numbered_files(loose ? path_ : folder, {".png"});
-    const fs::path list = loose ? fs::path() : first_that_exists({path_ / ("image_" + digit + "_times.txt"),
-                                                                  folder.parent_path() / "timestamps.txt",
-                                                                  path_ / "times.txt"});
+    const auto files =
+        folder.empty() && !loose ? std::vector<NumberedFile>{} : numbered_files(loose ? path_ : folder, {".png"});
+    const fs::path list = loose ? fs::path()
+                                : first_that_exists({path_ / ("image_" + digit + "_times.txt"),
+                                                     folder.parent_path() / "timestamps.txt", path_ / "times.txt"});
     const std::vector<std::int64_t> stamps = list.empty() ? std::vector<std::int64_t>{} : read_kitti_stamps(list);
     for (const NumberedFile& file : files) {
       const std::int64_t stamp_ns = list.empty() ? middle_of_scan(file) : at_number(stamps, file.number, list);
-      if (!images_[camera].empty() && stamp_ns <= images_[camera].back().stamp_ns) {
-        throw InputError(file.path.string() + ": its time is not later than that of the image before");
-      }
       images_[camera].push_back({file.path, stamp_ns});
     }
   }
 
   /// The camera is triggered when the lidar faces forward.
   std::int64_t middle_of_scan(const NumberedFile& image) const {
-    const auto scan = std::find_if(scans_.begin(), scans_.end(), [&](const Scan& s) { return s.file.number == image.number; });
+    const auto scan =
+        std::find_if(scans_.begin(), scans_.end(), [&](const Scan& s) { return s.file.number == image.number; });
     if (scan == scans_.end()) throw InputError(image.path.string() + ": has neither a time nor a scan of its number");
     return compensated() ? scan->time.end_ns : scan->time.start_ns + (scan->time.end_ns - scan->time.start_ns) / 2;
   }
@@ -190,16 +185,10 @@ class KittiFolder {
       if (!table.next()) throw InputError(file.path.string() + ": is empty");
       const std::int64_t stamp_ns = at_number(stamps, file.number, list);
       // Raw drives hold a few stamps that go back.
-      if (!oxts_poses_.empty() && stamp_ns <= oxts_poses_.back().stamp_ns) continue;
-      add_oxts_pose(table, stamp_ns);
+      if (oxts_poses_.empty() || stamp_ns > oxts_poses_.back().stamp_ns) add_oxts_pose(table, stamp_ns);
       add_sample(table, stamp_ns, 17, 11);
     }
-    if (rate_of_imu() < kLeastImuRate_hz) imu_.clear();
-  }
-
-  double rate_of_imu() const {
-    if (imu_.size() < 2) return 0.0;
-    return static_cast<double>(imu_.size() - 1) / seconds_between(imu_.front().stamp_ns, imu_.back().stamp_ns);
+    if (rate_of(imu_) < kLeastImuRate_hz) imu_.clear();
   }
 
   void add_sample(const TextTable& table, std::int64_t stamp_ns, std::size_t rate_at, std::size_t force_at) {
@@ -227,23 +216,19 @@ class KittiFolder {
   }
 
   Calibration calibration() const {
-    if (fs::exists(path_ / "calibration.yaml")) {
-      const fs::path file = path_ / "calibration.yaml";
-      return read_calibration_yaml(read_bounded_file(file, kMostCalibrationBytes), file.string());
-    }
     Calibration calibration;
     calibration.has_lidar = !scans_.empty();
     take_rates(calibration);
     const Pose lidar_from_body = dataset_has_imu() ? lidar_from_imu() : Pose{};
     calibration.body_from_lidar = lidar_from_body.inverse();
     calibration.has_camera = !images_[0].empty() && take_cameras(lidar_from_body, calibration);
-    return calibration;
+    return complete_calibration(calibration, path_, settings_);
   }
 
   bool dataset_has_imu() const { return !imu_.empty(); }
 
   void take_rates(Calibration& calibration) const {
-    calibration.imu_rate_hz = dataset_has_imu() ? rate_of_imu() : settings_.clock_hz;
+    calibration.imu_rate_hz = dataset_has_imu() ? rate_of(imu_) : settings_.clock_hz;
     const auto rate = [](std::size_t count, std::int64_t span_ns) {
       return count > 1 && span_ns > 0 ? 1e9 * static_cast<double>(count - 1) / static_cast<double>(span_ns) : 10.0;
     };
@@ -255,9 +240,7 @@ class KittiFolder {
     }
   }
 
-  fs::path calibration_file(const char* name) const {
-    return first_that_exists({path_ / name, path_ / ".." / name});
-  }
+  fs::path calibration_file(const char* name) const { return first_that_exists({path_ / name, path_ / ".." / name}); }
 
   Pose lidar_from_imu() const {
     const fs::path file = calibration_file("calib_imu_to_velo.txt");
@@ -274,7 +257,8 @@ class KittiFolder {
     }
     std::vector<double> rows;
     for (std::size_t row = 0; row < 3; ++row) {
-      rows.insert(rows.end(), r->second.begin() + 3 * static_cast<long>(row), r->second.begin() + 3 * static_cast<long>(row) + 3);
+      rows.insert(rows.end(), r->second.begin() + 3 * static_cast<long>(row),
+                  r->second.begin() + 3 * static_cast<long>(row) + 3);
       rows.push_back(t->second[row]);
     }
     return kitti_pose(rows, file.string());
@@ -323,15 +307,15 @@ class KittiFolder {
     for (int camera = 0; camera < 2; ++camera) {
       const std::vector<double>& p = found->projection[camera];
       if (p.size() != 12 || !(p[0] > 0.0) || !(p[5] > 0.0)) {
-        throw InputError(path_.string() + ": the calibration's P" + std::to_string(camera) + " is no projection matrix");
+        throw InputError(path_.string() + ": the calibration's P" + std::to_string(camera) +
+                         " is no projection matrix");
       }
       if (images_[camera].empty()) continue;
       const CameraFrame first = read_grey_image(images_[camera].front().path);
       const CameraIntrinsics intrinsics{first.width, first.height, p[0], p[5], p[2], p[6], {}};
       // P = K [I t]: the point of camera 0 moved by t.
       const Pose camera_from_zero{Eigen::Quaterniond::Identity(), {p[3] / p[0], 0.0, 0.0}};
-      const Pose body_from_camera =
-          (camera_from_zero * found->camera_from_lidar * lidar_from_body).inverse();
+      const Pose body_from_camera = (camera_from_zero * found->camera_from_lidar * lidar_from_body).inverse();
       if (camera == 0) {
         calibration.camera = intrinsics;
         calibration.body_from_camera = body_from_camera;
@@ -343,8 +327,10 @@ class KittiFolder {
   }
 
   std::vector<PoseTrack::Stamped> truth(const Calibration& calibration) const {
-    const fs::path numbered = path_ / ".." / ".." / "poses" / (fs::weakly_canonical(path_).filename().string() + ".txt");
-    const fs::path file = settings_.truth.empty() ? first_that_exists({path_ / "poses.txt", numbered}) : settings_.truth;
+    const fs::path numbered =
+        path_ / ".." / ".." / "poses" / (fs::weakly_canonical(path_).filename().string() + ".txt");
+    const fs::path file =
+        settings_.truth.empty() ? first_that_exists({path_ / "poses.txt", numbered}) : settings_.truth;
     if (file.empty()) return truth_of_oxts(calibration);
     TextTable table(file);
     if (!table.next() || table.size() != 12) return read_truth_file(file);
@@ -407,35 +393,13 @@ class KittiFolder {
     recording.end_ns = end_ns;
   }
 
-  MessageSource imu() const {
-    return [samples = imu_, next = std::size_t{0}]() mutable -> std::unique_ptr<SensorMessage> {
-      if (next == samples.size()) return nullptr;
-      const ImuSample& sample = samples[next++];
-      return std::make_unique<SensorMessage>(SensorMessage{sample, sample.stamp_ns, 0.0, {}});
-    };
-  }
-
-  MessageSource frames(int camera) const {
-    return [images = images_[camera], camera, next = std::size_t{0}]() mutable -> std::unique_ptr<SensorMessage> {
-      if (next == images.size()) return nullptr;
-      const Image& image = images[next++];
-      return timed_message(
-          [&] {
-            CameraFrame frame = read_grey_image(image.path);
-            frame.stamp_ns = image.stamp_ns;
-            frame.camera_id = camera;
-            return frame;
-          },
-          image.stamp_ns);
-    };
-  }
-
   MessageSource scans(const Calibration& calibration) const {
     return [scans = scans_, folder = path_, azimuth = !compensated(), rings = calibration.lidar_rings,
-            next = std::size_t{0}]() mutable -> std::unique_ptr<SensorMessage> {
+            next = std::size_t{0}, delivered_ns = INT64_MIN]() mutable -> std::unique_ptr<SensorMessage> {
       if (next == scans.size()) return nullptr;
       const Scan& scan = scans[next++];
-      return timed_message([&] { return read_scan(scan, folder, azimuth, rings); }, scan.time.end_ns);
+      delivered_ns = std::max(delivered_ns, scan.time.end_ns);
+      return timed_message([&] { return read_scan(scan, folder, azimuth, rings); }, delivered_ns);
     };
   }
 
@@ -467,8 +431,10 @@ class KittiFolder {
     for (std::size_t i = 0; i < times_s.size(); ++i) {
       const double offset_ns = std::round(1e9 * static_cast<double>(times_s[i]));
       // A time that is none, or outside the scan, takes its point along.
-      if (!(offset_ns >= 0.0 && offset_ns <= static_cast<double>(span_ns))) result.points[i].position.setZero();
-      else result.points[i].offset_ns = static_cast<std::int32_t>(offset_ns);
+      if (!(offset_ns >= 0.0 && offset_ns <= static_cast<double>(span_ns)))
+        result.points[i].position.setZero();
+      else
+        result.points[i].offset_ns = static_cast<std::int32_t>(offset_ns);
     }
     for (std::size_t i = 0; i < ring_numbers.size(); ++i) result.points[i].ring = ring_numbers[i];
     drop_unusable(result.points);
@@ -482,7 +448,7 @@ class KittiFolder {
   DatasetSettings settings_;
   bool is_odometry_ = false;
   std::vector<Scan> scans_;
-  std::vector<Image> images_[2];
+  std::vector<StampedFile> images_[2];
   std::vector<ImuSample> imu_;
   std::vector<PoseTrack::Stamped> oxts_poses_;
   double mercator_scale_ = 1.0;

@@ -86,9 +86,8 @@ std::string read_bounded_file(const fs::path& path, std::uintmax_t most_bytes) {
 
 fs::path listed_file(const fs::path& folder, std::string_view name) {
   const fs::path file(name);
-  const bool leads_out = file.is_absolute() || std::any_of(file.begin(), file.end(), [](const fs::path& part) {
-                           return part == "..";
-                         });
+  const bool leads_out =
+      file.is_absolute() || std::any_of(file.begin(), file.end(), [](const fs::path& part) { return part == ".."; });
   if (leads_out || file.empty()) {
     throw InputError(folder.string() + ": its list names " + quoted_field(name) +
                      ", expected a path within the dataset");
@@ -107,9 +106,8 @@ std::vector<NumberedFile> numbered_files(const fs::path& folder, const std::vect
     if (files.size() == kMostFiles) throw InputError(folder.string() + ": more than 10 million files");
     files.push_back({*number, path});
   }
-  std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
-    return a.number != b.number ? a.number < b.number : a.path < b.path;
-  });
+  std::sort(files.begin(), files.end(),
+            [](const auto& a, const auto& b) { return a.number != b.number ? a.number < b.number : a.path < b.path; });
   return files;
 }
 
