@@ -164,11 +164,15 @@ SweepOdometry::SweepOdometry(const Calibration& calibration, bool remapping)
       remapping_(remapping) {}
 
 void SweepOdometry::begin(const FeatureCloud& last_sweep, std::int64_t reference_ns) {
-  edges_.build(samples_of(last_sweep.edges));
-  planes_.build(samples_of(last_sweep.planes));
+  revise(last_sweep);
   reference_ns_ = reference_ns;
   begun_ = true;
   sweep_ = {};
+}
+
+void SweepOdometry::revise(const FeatureCloud& last_sweep) {
+  edges_.build(samples_of(last_sweep.edges));
+  planes_.build(samples_of(last_sweep.planes));
 }
 
 void SweepOdometry::add(const FeatureCloud& predicted_in_reference) {

@@ -25,6 +25,8 @@ class SweepOdometry {
 
   /// Begins a sweep. @param last_sweep  features of the sweep before, in B at its end, reference_ns
   void begin(const FeatureCloud& last_sweep, std::int64_t reference_ns);
+  /// Replaces the sweep before by a better one of the same; the growing sweep stays.
+  void revise(const FeatureCloud& last_sweep);
   bool begun() const { return begun_; }
   std::int64_t reference_ns() const { return reference_ns_; }
 
