@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <stdexcept>
 
 #include "estimator/estimator.h"
+#include "estimator/pipeline/loam.h"
 #include "estimator/pipeline/vloam.h"
 
 namespace plumbline {
@@ -35,17 +37,28 @@ const std::vector<EstimatorInfo>& estimator_library() {
       {"vio", "IMU prediction and visual odometry with lidar depth; scan matching off"},
       {"imu_lidar", "IMU prediction and scan matching; vision off"},
       {"imu", "dead reckoning"},
+      {"loam", "lidar odometry within each sweep and mapping once a sweep, with or without the IMU (LOAM)"},
+      {"loam_imu_orientation", "the same with the attitude as the gyro integrates it; only translation is estimated"},
   };
   return library;
 }
 
 std::unique_ptr<Estimator> make_estimator(const std::string& name, const Calibration& calibration,
                                           const EstimatorConfig& config) {
+  const std::vector<EstimatorInfo>& library = estimator_library();
+  const auto is_named = [&](const EstimatorInfo& info) { return info.name == name; };
+  if (std::none_of(library.begin(), library.end(), is_named)) {
+    std::string known;
+    for (const EstimatorInfo& info : library) known += (known.empty() ? "" : ", ") + info.name;
+    throw std::invalid_argument("estimator: unknown name '" + name + "'; known: " + known);
+  }
+  if (name == "loam") {
+    return std::make_unique<Loam>(calibration, config, config.imu_enabled ? ImuUse::kFull : ImuUse::kNone);
+  }
+  if (name == "loam_imu_orientation") return std::make_unique<Loam>(calibration, config, ImuUse::kOrientation);
   EstimatorConfig chosen = config;
   if (name == "vio" || name == "imu") chosen.lidar_enabled = false;
   if (name == "imu_lidar" || name == "imu") chosen.vision_enabled = false;
-  const bool known = name == "vloam" || name == "vio" || name == "imu_lidar" || name == "imu";
-  if (!known) throw std::invalid_argument("estimator: unknown name '" + name + "'; known: vloam, vio, imu_lidar, imu");
   if (calibration.has_camera && (calibration.camera.width <= 0 || calibration.camera.height <= 0 ||
                                  !(calibration.camera.fx > 0.0) || !(calibration.camera.fy > 0.0))) {
     throw std::invalid_argument("estimator: camera intrinsics must be positive");
