@@ -24,6 +24,8 @@ class Vloam final : public Estimator {
   void add(const CameraFrame& frame) override;
   void add(const DepthFrame& frame) override;
   void add(const LidarScan& scan) override;
+  /// Points that someone else found and identified, in place of a camera's images.
+  void add(const PointFrame& frame);
   std::vector<Odometry> take() override;
   MessageCounts counts(Module module) const override;
   std::vector<TrackedFeature> features() const override;
@@ -36,7 +38,11 @@ class Vloam final : public Estimator {
   void advance_to(std::int64_t stamp_ns, const InertialSegment& segment);
   void handle(const MessageGate::Message& message);
   void handle(const CameraFrame& frame);
+  void handle(const PointFrame& frame);
+  void handle(const DepthFrame& frame);
   void handle(const LidarScan& scan);
+  template <typename Frame>
+  void see(const Frame& frame);
   void refine_with_scan(const LidarScan& scan, const std::vector<Eigen::Vector3f>& points_in_body);
   /// Lets an update act, and moves the recent track with it, so that the track's inner shape stays the IMU's.
   template <typename Update>
