@@ -8,6 +8,7 @@
 
 #include "scenarios/input_error.h"
 #include "tools/exit_code.h"
+#include "tools/recordings/corner_tracks.h"
 #include "tools/recordings/imu_start.h"
 #include "tools/recordings/lidar_steps.h"
 
@@ -26,6 +27,7 @@ constexpr Kind kKinds[] = {
     {has_raw_steps, check_raw_steps},
     {has_odometry_pairs, check_odometry_pairs},
     {has_imu_and_truth, check_imu},
+    {has_corner_tracks, check_corner_tracks},
 };
 
 std::vector<fs::path> folders_below(const fs::path& root) {
