@@ -2,11 +2,8 @@
 #include <stdexcept>
 
 #include "estimator/estimator.h"
-<<<<<<< HEAD
-#include "estimator/pipeline/loam.h"
-=======
 #include "estimator/pipeline/demo.h"
->>>>>>> demo
+#include "estimator/pipeline/loam.h"
 #include "estimator/pipeline/vloam.h"
 
 namespace plumbline {
