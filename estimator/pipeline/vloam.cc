@@ -55,12 +55,13 @@ Calibration effective(Calibration calibration, const EstimatorConfig& config) {
 
 }  // namespace
 
-Vloam::Vloam(const Calibration& calibration, const EstimatorConfig& config)
+Vloam::Vloam(const Calibration& calibration, const EstimatorConfig& config, const VisionConfig& vision,
+             const ScanMatcherConfig& matcher)
     : calibration_(effective(calibration, config)),
       config_(config),
       initializer_(calibration_),
-      vision_(calibration_, VisionConfig{}, config.remapping),
-      matcher_(calibration_, ScanMatcherConfig{}, config.remapping) {}
+      vision_(calibration_, vision, config.remapping),
+      matcher_(calibration_, matcher, config.remapping) {}
 
 void Vloam::add(const ImuSample& received) {
   ImuSample sample = received;
