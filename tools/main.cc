@@ -27,6 +27,7 @@ int run_program(int argc, char** argv) {
   add_list_command(app, chosen);
   add_merge_command(app, chosen);
   add_replay_command(app, chosen);
+  add_regress_command(app, chosen);
   add_report_command(app, chosen);
   add_sweep_command(app, chosen);
   try {

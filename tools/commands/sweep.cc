@@ -4,10 +4,10 @@
 #include <charconv>
 #include <iostream>
 #include <memory>
-#include <thread>
 
 #include "scenarios/input_error.h"
 #include "tools/commands/command.h"
+#include "tools/commands/study_options.h"
 #include "tools/exit_code.h"
 #include "tools/interrupt.h"
 #include "tools/progress_line.h"
@@ -21,7 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMaxJobs = 1024;
 constexpr std::size_t kSlurmTasks = 100;  // a site's MaxArraySize is 1001 unless it says otherwise
 constexpr const char* kSlurm = "slurm";
 
@@ -37,16 +36,6 @@ Shard shard_of(const std::string& text) {
     throw InputError("--shard: found '" + text + "', expected I/N with I from 1 to N");
   }
   return shard;
-}
-
-int jobs_of(const SweepArguments& arguments) {
-  if (arguments.jobs > 0) return arguments.jobs;
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
-fs::path absolute_directory(const std::string& path) {
-  const fs::path normal = fs::absolute(path).lexically_normal();
-  return normal.has_filename() ? normal : normal.parent_path();
 }
 
 void print_summary(const SweepPlan& plan, const std::vector<RunRow>& rows, const fs::path& out) {
@@ -72,7 +61,7 @@ LaunchEnd launch(const SweepFile& sweep, const SweepPlan& plan, const std::strin
     if (amiss.empty()) return {};
     if (!interrupted()) return {amiss, kExitFault};
   } else if (make_runs(plan, directory, plumbline_run(sweep, plan, program),
-                       {jobs_of(arguments), shard_of(arguments.shard), progress})) {
+                       {jobs_or_all(arguments.jobs), shard_of(arguments.shard), progress})) {
     return {};
   }
   return {"interrupted; what has finished is kept, the same command with --resume goes on", kExitInterrupted};
@@ -108,10 +97,10 @@ int run_sweep(const SweepArguments& arguments) {
   // Files named by values of the sweep are relative to it, for us and for the runs, which inherit this.
   fs::current_path(sweep.path.parent_path());
   const SweepPlan plan = make_plan(sweep);
-  const std::string program = fs::read_symlink("/proc/self/exe").string();
+  const std::string program = own_program();
   if (!arguments.shrink.empty()) {
     catch_interrupts();
-    return shrink_run(sweep, plan, arguments.shrink, out, jobs_of(arguments), program);
+    return shrink_run(sweep, plan, arguments.shrink, out, jobs_or_all(arguments.jobs), program);
   }
   return sweep_into(out, sweep, plan, program, arguments);
 }
@@ -121,8 +110,7 @@ void add_sweep_command(CLI::App& app, Action& chosen) {
   CLI::App* sweep = app.add_subcommand("sweep", "Run a scenario over ranges of its keys, seeds and estimators");
   sweep->add_option("SWEEP", arguments->sweep, "sweep file")->required();
   sweep->add_option("--out", arguments->out, "directory for the results")->required();
-  sweep->add_option("--jobs", arguments->jobs, "runs at a time; one per core by default; the results are the same")
-      ->check(CLI::Range(1, kMaxJobs));
+  add_jobs_option(*sweep, arguments->jobs);
   sweep->add_option("--shard", arguments->shard, "I/N: only the I-th of N shares of the work, I from 1; see merge");
   sweep->add_flag("--resume", arguments->resume, "go on with what is in the directory");
   sweep

@@ -55,7 +55,7 @@ ReplayConfig read_replay_config(const std::filesystem::path& dataset, const std:
   ConfigReader reader(keys, "");
   reader.section("dataset", [&](ConfigReader& section) { read_dataset(section, config.dataset); });
   reader.section("estimator", [&](ConfigReader& estimator) {
-    read_estimator(estimator, scenario.estimator_name, scenario.estimator);
+    read_estimator(estimator, scenario.estimator_name, scenario.estimator_directory, scenario.estimator);
   });
   reader.section("expect", [&](ConfigReader& expect) { read_expect(expect, scenario.expect, scenario.expect_status); });
   reader.finish();
