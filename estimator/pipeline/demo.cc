@@ -73,8 +73,13 @@ void Demo::add(const ImuSample& received) {
 void Demo::add(const CameraFrame& frame) { gate_.admit(frame); }
 void Demo::add(const DepthFrame& frame) { gate_.admit(frame); }
 void Demo::add(const LidarScan& scan) { gate_.admit(scan); }
+void Demo::add(const PointFrame& frame) { gate_.admit(frame); }
 
-void Demo::handle(const CameraFrame& frame) {
+void Demo::handle(const CameraFrame& frame) { see(frame); }
+void Demo::handle(const PointFrame& frame) { see(frame); }
+
+template <typename Frame>
+void Demo::see(const Frame& frame) {
   const StopWatch watch;
   if (frame.camera_id != 0) {
     gate_.count_used(Module::kVision);
@@ -91,8 +96,6 @@ void Demo::handle(const CameraFrame& frame) {
   adjust_when_due();
   health_.push_back(health_of(frame.stamp_ns, Module::kVision, step.solved, step.predicted, watch.seconds()));
 }
-
-void Demo::handle(const PointFrame&) {}
 
 void Demo::handle(const DepthFrame& frame) {
   gate_.count_used(Module::kVision);

@@ -31,6 +31,8 @@ class Demo final : public Estimator {
   void add(const CameraFrame& frame) override;
   void add(const DepthFrame& frame) override;
   void add(const LidarScan& scan) override;
+  /// Points that someone else found and identified, in place of a camera's images.
+  void add(const PointFrame& frame);
   std::vector<Odometry> take() override;
   MessageCounts counts(Module module) const override;
   std::vector<TrackedFeature> features() const override;
@@ -41,6 +43,8 @@ class Demo final : public Estimator {
   void handle(const PointFrame& frame);
   void handle(const DepthFrame& frame);
   void handle(const LidarScan& scan);
+  template <typename Frame>
+  void see(const Frame& frame);
   void note(const FrameToFrame::Step& step, std::int64_t previous_ns);
   void adjust_when_due();
   void use_scans(std::int64_t now_ns);
