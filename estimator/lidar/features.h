@@ -12,6 +12,7 @@ struct FeaturePoint {
   float intensity = 0.0F;
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< planes: unit, in B, towards the sensor; edges: zero
   float spread_m = 0.0F;  ///< edges: standard deviation across the edge that the spacing of the beams adds
+  float offset_s = 0.0F;  ///< since the scan's stamp: when it was measured, of a plane's cell the mean
 };
 
 /// What matching uses of one scan (thesis 5.12 and the selection rules of ch. 4).

@@ -3,6 +3,7 @@
 
 #include "estimator/estimator.h"
 #include "estimator/pipeline/demo.h"
+#include "estimator/pipeline/loam.h"
 #include "estimator/pipeline/vloam.h"
 
 namespace plumbline {
@@ -37,6 +38,8 @@ const std::vector<EstimatorInfo>& estimator_library() {
       {"vio", "IMU prediction and visual odometry with lidar depth; scan matching off"},
       {"imu_lidar", "IMU prediction and scan matching; vision off"},
       {"imu", "dead reckoning"},
+      {"loam", "lidar odometry within each sweep and mapping once a sweep, with or without the IMU (LOAM)"},
+      {"loam_imu_orientation", "the same with the attitude as the gyro integrates it; only translation is estimated"},
       {"demo", "frame-to-frame visual odometry with depth and bundle adjustment, no IMU (DEMO)"},
       {"demo_no_ba", "the same without bundle adjustment"},
       {"demo_matched", "frame-to-frame visual odometry and scan matching, no IMU (DEMO + scan matching)"},
@@ -83,6 +86,10 @@ void validate_or_throw(const std::string& name, const Calibration& calibration) 
 std::unique_ptr<Estimator> make_estimator(const std::string& name, const Calibration& calibration,
                                           const EstimatorConfig& config) {
   validate_or_throw(name, calibration);
+  if (name == "loam") {
+    return std::make_unique<Loam>(calibration, config, config.imu_enabled ? ImuUse::kFull : ImuUse::kNone);
+  }
+  if (name == "loam_imu_orientation") return std::make_unique<Loam>(calibration, config, ImuUse::kOrientation);
   const bool demo = name.starts_with("demo") || name == "vo_depth_only";
   return demo ? make_demo(name, calibration, config) : make_vloam(name, calibration, config);
 }
