@@ -43,6 +43,7 @@ const std::vector<EstimatorInfo>& estimator_library() {
       {"demo", "frame-to-frame visual odometry with depth and bundle adjustment, no IMU (DEMO)"},
       {"demo_no_ba", "the same without bundle adjustment"},
       {"demo_matched", "frame-to-frame visual odometry and scan matching, no IMU (DEMO + scan matching)"},
+      {"demo_loam", "frame-to-frame visual odometry, refined sweep to sweep and sweep to map, no IMU (three stages)"},
       {"vo_depth_only", "frame-to-frame visual odometry that uses only features with measured depth, no IMU"},
   };
   return library;
@@ -65,6 +66,7 @@ std::unique_ptr<Estimator> make_demo(const std::string& name, const Calibration&
   stages.bundle_adjustment = name == "demo";
   stages.map_depth_only = name == "vo_depth_only";
   stages.scan_matching = name == "demo_matched";
+  stages.sweep_refinement = name == "demo_loam";
   return std::make_unique<Demo>(calibration, config, stages);
 }
 

@@ -35,7 +35,8 @@ Window drifted_window(std::uint64_t seed, double range_m = 40.0) {
     for (const PointFrame::Point& p : seen.points) {
       FrameToFrame::Sighting sighting{p.id, p.pixel.cast<double>(), 0.25, {}, DepthSource::kNone};
       if (p.id % 3 == 0) {
-        const Eigen::Vector3d point = (truth * calibration.body_from_camera).inverse() * points[static_cast<std::size_t>(p.id)];
+        const Eigen::Vector3d point =
+            (truth * calibration.body_from_camera).inverse() * points[static_cast<std::size_t>(p.id)];
         sighting.depth = {(1.0 + 0.02 * random.gaussian()) / point.z(), 0.02 / point.z()};
         sighting.source = DepthSource::kLidar;
       }

@@ -25,7 +25,9 @@ std::int64_t stamp_of(int frame) { return 1'000'000'000 + std::llround(1e9 * kFr
 class Walk {
  public:
   Walk(const FrameToFrameConfig& config, double depth_range_m, std::uint64_t seed = 1)
-      : odometry(calibration, config, true), depth_range_m_(depth_range_m), points_(hall_points(12.0, seed)),
+      : odometry(calibration, config, true),
+        depth_range_m_(depth_range_m),
+        points_(hall_points(12.0, seed)),
         random_(seed, "pixels") {}
 
   FrameToFrame::Step step(double range_m = kFar_m) {
@@ -127,7 +129,8 @@ double end_error_m(bool bundle_adjustment, std::uint64_t seed) {
   demo.add(ImuSample{stamp_of(0) - 1, {}, {}});
   for (int i = 0; i < kFrames; ++i) {
     const Pose truth = walk(kFrame_s * i);
-    demo.add(see(points, truth, calibration.body_from_camera, calibration.camera, 0, stamp_of(i), kFar_m, 0.25, random));
+    demo.add(
+        see(points, truth, calibration.body_from_camera, calibration.camera, 0, stamp_of(i), kFar_m, 0.25, random));
     demo.add(see(points, truth, right.body_from_camera, right.intrinsics, 1, stamp_of(i), kFar_m, 0.25, random));
     demo.add(ImuSample{stamp_of(i), {}, {}});
     for (const Odometry& output : demo.take()) last = output.world_from_body;

@@ -42,8 +42,11 @@ std::vector<StereoDepth::Feature> corners_of(const Pair& pair) {
   std::vector<StereoDepth::Feature> features;
   const GreyView image = view_of(pair.left_frame);
   for (const Corner& corner : find_corners(image, image_noise_dn(image, {}), {}, {})) {
-    features.push_back({static_cast<std::int64_t>(features.size()), corner.pixel,
-                        ray_through(pair.calibration.camera, corner.pixel.cast<double>()), 0.3, {}});
+    features.push_back({static_cast<std::int64_t>(features.size()),
+                        corner.pixel,
+                        ray_through(pair.calibration.camera, corner.pixel.cast<double>()),
+                        0.3,
+                        {}});
   }
   return features;
 }
