@@ -12,9 +12,10 @@ namespace plumbline {
 /// Sweep-to-sweep odometry within the growing sweep (thesis 4.3, Algorithm 2): features of the sweep so far against the
 /// whole sweep before, with motion that is linear in time.
 ///
-/// Everything stands in the reference frame, B at the end of the sweep before. Features come as the prediction puts them
-/// there (start_from_body(t) X, by IMU or by the last motion), and what is solved for is what is wrong with that: a
-/// motion C that grows linearly from the reference time on, so that (4.5) and (4.6) read, with s the share of the time,
+/// Everything stands in the reference frame, B at the end of the sweep before. Features come as the prediction puts
+/// them there (start_from_body(t) X, by IMU or by the last motion), and what is solved for is what is wrong with that:
+/// a motion C that grows linearly from the reference time on, so that (4.5) and (4.6) read, with s the share of the
+/// time,
 ///   X~ = exp(s theta) X' + s tau,  (theta, tau) = C at the newest time.
 /// With nothing predicted this is the thesis's own; with an IMU it is its section 4.6.2.
 /// Unlike the thesis, lines and planes are fitted to up to 16 and 10 neighbours instead of spanned by two and three

@@ -146,7 +146,8 @@ void Loam::finish(const Sweep& sweep) {
   if (!odometry_.begun()) {
     first_ = sweep;
     FeatureCloud features = features_of(sweep.scan, track_, sweep.end_ns);
-    return begin_sweep(std::move(features), middle_ns, sweep.end_ns, track_.at(middle_ns).inverse() * track_.at(sweep.end_ns));
+    return begin_sweep(std::move(features), middle_ns, sweep.end_ns,
+                       track_.at(middle_ns).inverse() * track_.at(sweep.end_ns));
   }
   if (followed_ns_ != sweep.end_ns) return gate_.drop(Module::kLidar, "back in time");
   if (first_) redo_first_sweep();
@@ -193,8 +194,7 @@ void Loam::match(const FeatureCloud& features, std::int64_t stamp_ns) {
 void Loam::take_motion(std::int64_t now_ns) {
   if (!steady_) return;
   const Pose moved = corrected(track_.at(now_ns), now_ns) * track_.at(now_ns).inverse();
-  steady_->follow(moved * state().world_from_body, motion_.pose,
-                  seconds_between(odometry_.reference_ns(), now_ns));
+  steady_->follow(moved * state().world_from_body, motion_.pose, seconds_between(odometry_.reference_ns(), now_ns));
   track_.premultiply(moved);
 }
 
@@ -228,9 +228,7 @@ FeatureCloud Loam::features_of(const LidarScan& scan, const PoseTrack& world_fro
 Pose Loam::world_from_reference() const { return track_.at(last_end_ns_) * reference_from_last_end_.inverse(); }
 
 /// reference_from_body.
-Pose Loam::predicted_motion(std::int64_t now_ns) const {
-  return world_from_reference().inverse() * track_.at(now_ns);
-}
+Pose Loam::predicted_motion(std::int64_t now_ns) const { return world_from_reference().inverse() * track_.at(now_ns); }
 
 Matrix6d Loam::motion_covariance(std::int64_t now_ns) const {
   return filter_ ? filter_->keyframe_motion_covariance()
