@@ -144,12 +144,12 @@ class SweepConstraints {
   FitLimits edge_limits_;
 };
 
-FeatureCloud within_budget(const FeatureCloud& from) {
+FeatureCloud within_budget(const FeatureCloud& from, int effort) {
   FeatureCloud used;
-  const std::size_t edges = std::min<std::size_t>(from.edges.size(), kEdgeBudget);
+  const std::size_t edges = std::min(from.edges.size(), static_cast<std::size_t>(effort * kEdgeBudget));
   used.edges.reserve(edges);
   for (std::size_t k = 0; k < edges; ++k) used.edges.push_back(from.edges[k * from.edges.size() / edges]);
-  const std::vector<std::uint32_t> picked = sample_by_direction(from.planes, kPlaneBudget);
+  const std::vector<std::uint32_t> picked = sample_by_direction(from.planes, effort * kPlaneBudget);
   used.planes.reserve(picked.size());
   for (const std::uint32_t i : picked) used.planes.push_back(from.planes[i]);
   return used;
@@ -186,7 +186,8 @@ void SweepOdometry::add(const FeatureCloud& predicted_in_reference) {
   append(sweep_.planes, predicted_in_reference.planes);
 }
 
-SolveResult SweepOdometry::solve(std::int64_t now_ns, const PosePrior& reference_from_body) {
+SolveResult SweepOdometry::solve(std::int64_t now_ns, const PosePrior& reference_from_body,
+                                 const std::optional<Pose>& known, int effort) const {
   SolverOptions options;
   options.max_iterations = kMaxIterations;
   options.rotation_tolerance = 1e-4;
@@ -194,7 +195,7 @@ SolveResult SweepOdometry::solve(std::int64_t now_ns, const PosePrior& reference
   options.degeneracy_threshold = kDegeneracyThreshold;
   options.remapping = remapping_;
   options.min_features = kLeastFeatures;
-  const FeatureCloud used = within_budget(sweep_);
+  const FeatureCloud used = within_budget(sweep_, effort);
   const Pose& predicted = reference_from_body.mean;
   SweepConstraints constraints(edges_, planes_, used, predicted, seconds_between(reference_ns_, now_ns), sigma_m_,
                                map_sigma_m_);
@@ -205,11 +206,11 @@ SolveResult SweepOdometry::solve(std::int64_t now_ns, const PosePrior& reference
         guess, reference_from_body, [&](const Pose& pose, ResidualRows& rows) { constraints.linearize(pose, rows); },
         options);
   };
+  if (known) return solve_from(*known, 0.0);
   // Far from the solution the rows that would lead to it look like outliers. First all are believed.
   const double doubt_m =
       std::min(kLargestDoubt_m, 2.0 * std::sqrt(reference_from_body.covariance.bottomRightCorner<3, 3>().trace()));
-  const Pose guess = doubt_m > kCoarseDoubt_m ? solve_from(predicted, doubt_m).pose : predicted;
-  return solve_from(guess, 0.0);
+  return solve_from(doubt_m > kCoarseDoubt_m ? solve_from(predicted, doubt_m).pose : predicted, 0.0);
 }
 
 FeatureCloud SweepOdometry::corrected(std::int64_t now_ns, const Pose& predicted,

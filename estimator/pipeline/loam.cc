@@ -16,6 +16,7 @@ constexpr std::int64_t kMaxImuGap_ns = 500'000'000;
 // A solution's rows share errors that whitening does not know: the map's, or the last sweep's.
 constexpr double kInflation = 25.0;
 constexpr int kFirstSweepRounds = 3;
+constexpr int kFirstEffort = 6;
 constexpr double kLostSigma_m = 10.0;
 
 // Where the lidar alone tells the pose, odometry may be wrong by this much when it comes to matching with the map.
@@ -137,7 +138,7 @@ void Loam::follow(const LidarScan& part, std::int64_t now_ns) {
   move(features.edges, predicted, later_s);
   move(features.planes, predicted, later_s);
   odometry_.add(features);
-  motion_ = odometry_.solve(now_ns, {predicted, motion_covariance(now_ns)});
+  motion_ = odometry_.solve(now_ns, {predicted, motion_covariance(now_ns)}, std::nullopt, effort());
   followed_ns_ = now_ns;
 }
 
@@ -169,7 +170,8 @@ void Loam::redo_first_sweep() {
   for (int round = 0; round < kFirstSweepRounds; ++round) {
     features = features_of(first_->scan, corrected_track(), middle_ns);
     odometry_.revise(features);
-    motion_ = odometry_.solve(followed_ns_, {predicted_motion(followed_ns_), motion_covariance(followed_ns_)});
+    motion_ = odometry_.solve(followed_ns_, {predicted_motion(followed_ns_), motion_covariance(followed_ns_)},
+                              motion_.pose, effort());
   }
   matcher_.insert(features, world_from_reference(), path_m_);
   last_position_ = world_from_reference().translation;
@@ -226,6 +228,9 @@ FeatureCloud Loam::features_of(const LidarScan& scan, const PoseTrack& world_fro
 }
 
 Pose Loam::world_from_reference() const { return track_.at(last_end_ns_) * reference_from_last_end_.inverse(); }
+
+/// While no motion is known, cars that move along may outvote what stands still.
+int Loam::effort() const { return first_ ? kFirstEffort : 1; }
 
 /// reference_from_body.
 Pose Loam::predicted_motion(std::int64_t now_ns) const { return world_from_reference().inverse() * track_.at(now_ns); }

@@ -59,6 +59,7 @@ class Loam final : public Estimator {
   void take_pose(const SolveResult& solved, const Pose& predicted);
   void begin_sweep(FeatureCloud last_sweep, std::int64_t middle_ns, std::int64_t end_ns, const Pose& middle_from_end);
   FeatureCloud features_of(const LidarScan& scan, const PoseTrack& world_from_body, std::int64_t reference_ns) const;
+  int effort() const;
   Pose world_from_reference() const;
   Pose predicted_motion(std::int64_t now_ns) const;
   Matrix6d motion_covariance(std::int64_t now_ns) const;
