@@ -1,11 +1,11 @@
 #include "estimator/pipeline/loam.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include "estimator/lidar/deskew.h"
 #include "estimator/lidar/features.h"
+#include "estimator/pipeline/module_health.h"
 
 namespace plumbline {
 namespace {
@@ -45,10 +45,6 @@ void move(std::vector<FeaturePoint>& features, const Pose& target_from_source, f
     f.normal = rotation * f.normal;
     f.offset_s += later_s;
   }
-}
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace
@@ -122,12 +118,12 @@ void Loam::handle(const LidarScan& part) {
   const bool known = track_.covers(part.end_ns) && (imu_ == ImuUse::kNone || track_.covers(part.stamp_ns));
   if (!known) return gate_.drop(Module::kLidar, "before the start");
   gate_.count_used(Module::kLidar);
-  const auto start = std::chrono::steady_clock::now();
+  const StopWatch watch;
   const std::optional<LidarScan> sweep = assembler_.add(part);
   const std::int64_t now_ns = newest_return_ns(part);
   if (odometry_.begun() && now_ns > odometry_.reference_ns()) follow(part, now_ns);
   if (sweep) finish({*sweep, newest_return_ns(*sweep), sweep->stamp_ns != part.stamp_ns});
-  if (!health_.empty() && sweep) health_.back().processing_s = seconds_since(start);
+  if (!health_.empty() && sweep) health_.back().processing_s = watch.seconds();
 }
 
 /// Odometry within the growing sweep.
@@ -183,7 +179,7 @@ void Loam::match(const FeatureCloud& features, std::int64_t stamp_ns) {
   if (mapping_) {
     const SolveResult solved = matcher_.match(features, {predicted, pose_covariance()});
     take_pose(solved, predicted);
-    report(stamp_ns, solved, predicted);
+    health_.push_back(health_of(stamp_ns, Module::kLidar, solved, predicted, 0.0));
   }
   const Pose world_from_body = track_.at(stamp_ns);
   path_m_ += (world_from_body.translation - last_position_).norm();
@@ -263,23 +259,6 @@ PoseTrack Loam::corrected_track() const {
   PoseTrack result;
   for (const PoseTrack::Stamped& at : track_.poses()) result.push(at.stamp_ns, corrected(at.pose, at.stamp_ns));
   return result;
-}
-
-void Loam::report(std::int64_t stamp_ns, const SolveResult& solved, const Pose& predicted) {
-  ModuleHealth health;
-  health.stamp_ns = stamp_ns;
-  health.module = Module::kLidar;
-  const int well_conditioned = solved.spectrum.well_conditioned;
-  health.mode = well_conditioned == 6   ? ModuleMode::kSolved
-                : well_conditioned == 0 ? ModuleMode::kBypassed
-                                        : ModuleMode::kPartial;
-  health.eigenvalues = solved.spectrum.eigenvalues;
-  health.eigenvectors = solved.spectrum.eigenvectors;
-  health.well_conditioned = well_conditioned;
-  health.rows = solved.features;
-  health.inliers = solved.inliers;
-  health.correction = predicted.local(solved.pose);
-  health_.push_back(health);
 }
 
 Odometry Loam::output(std::int64_t stamp_ns) const {

@@ -66,7 +66,6 @@ class Loam final : public Estimator {
   Matrix6d pose_covariance() const;
   Pose corrected(const Pose& world_from_body, std::int64_t stamp_ns) const;
   PoseTrack corrected_track() const;
-  void report(std::int64_t stamp_ns, const SolveResult& solved, const Pose& predicted);
   Odometry output(std::int64_t stamp_ns) const;
 
   Calibration calibration_;

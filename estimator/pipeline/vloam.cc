@@ -1,16 +1,16 @@
 #include "estimator/pipeline/vloam.h"
 
-#include <chrono>
 #include <cmath>
 #include <utility>
 
 #include "estimator/lidar/deskew.h"
 #include "estimator/lidar/features.h"
+#include "estimator/pipeline/module_health.h"
 
 namespace plumbline {
 namespace {
 
-constexpr std::int64_t kTrackLength_ns = MessageGate::kLongestDelay_ns;
+constexpr std::int64_t kTrackLength_ns = MessageGate::kLongestDelay_ns + SweepAssembler::kLongest_ns;
 constexpr std::int64_t kMaxImuGap_ns = 500'000'000;
 
 // A solution's rows share errors that whitening does not know: features of one key-frame share its depth errors over
@@ -20,19 +20,6 @@ constexpr double kLidarInflation = 25.0;
 
 // The estimator stops believing its position when the filter's own standard deviation exceeds this [m].
 constexpr double kLostSigma_m = 10.0;
-
-class StopWatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-ModuleMode mode_of(int well_conditioned) {
-  if (well_conditioned == 6) return ModuleMode::kSolved;
-  return well_conditioned == 0 ? ModuleMode::kBypassed : ModuleMode::kPartial;
-}
 
 /// Without an IMU its samples are a clock: no rate, no force, and "biases" free enough to be the motion itself, which
 /// makes the mechanisation a constant-rate, constant-acceleration predictor.
@@ -50,22 +37,12 @@ Calibration effective(Calibration calibration, const EstimatorConfig& config) {
   return calibration;
 }
 
-MessageUse use_of(const Calibration& calibration, const EstimatorConfig& config) {
-  MessageUse use;
-  if (calibration.has_camera && config.vision_enabled) {
-    use.cameras[0] = {calibration.camera.width, calibration.camera.height};
-  }
-  use.lidar = calibration.has_lidar;
-  use.imu = config.imu_enabled;
-  return use;
-}
-
 }  // namespace
 
 Vloam::Vloam(const Calibration& calibration, const EstimatorConfig& config)
     : calibration_(effective(calibration, config)),
       config_(config),
-      gate_(use_of(calibration_, config)),
+      gate_(message_use(calibration_, config)),
       initializer_(calibration_),
       vision_(calibration_, VisionConfig{}, config.remapping),
       matcher_(calibration_, ScanMatcherConfig{}, config.remapping) {}
@@ -118,16 +95,21 @@ void Vloam::take_in(const Payload& payload) {
 void Vloam::add(const CameraFrame& frame) { take_in(frame); }
 void Vloam::add(const DepthFrame& frame) { take_in(frame); }
 void Vloam::add(const LidarScan& scan) { take_in(scan); }
+void Vloam::add(const PointFrame& frame) { take_in(frame); }
 
 void Vloam::handle(const MessageGate::Message& message) {
-  if (const auto* frame = std::get_if<CameraFrame>(&message)) return handle(*frame);
-  if (const auto* scan = std::get_if<LidarScan>(&message)) return handle(*scan);
+  std::visit([this](const auto& payload) { handle(payload); }, message);
 }
 
-void Vloam::handle(const CameraFrame& frame) {
+void Vloam::handle(const CameraFrame& frame) { see(frame); }
+void Vloam::handle(const PointFrame& frame) { see(frame); }
+
+template <typename Frame>
+void Vloam::see(const Frame& frame) {
   if (!track_.covers(frame.stamp_ns)) return gate_.drop(Module::kVision, "before the start");
   const StopWatch watch;
   gate_.count_used(Module::kVision);
+  if (frame.camera_id != 0) return vision_.add_stereo(frame);
   const Pose predicted = filter_->world_from_keyframe().inverse() * track_.at(frame.stamp_ns);
   const SolveResult solved = vision_.process(frame, {predicted, filter_->keyframe_motion_covariance()});
   correct([&] { filter_->update_keyframe_motion(solved, predicted, kVisionInflation); });
@@ -139,6 +121,12 @@ void Vloam::handle(const CameraFrame& frame) {
   report(frame.stamp_ns, Module::kVision, solved, predicted, watch.seconds());
 }
 
+void Vloam::handle(const DepthFrame& frame) {
+  if (!track_.covers(frame.stamp_ns)) return gate_.drop(Module::kVision, "before the start");
+  gate_.count_used(Module::kVision);
+  vision_.add_depth_image(frame, track_.at(frame.stamp_ns));
+}
+
 void Vloam::handle(const LidarScan& scan) {
   // The first sweeps began before the start: no motion is known for their first points.
   if (!track_.covers(scan.stamp_ns) || !track_.covers(scan.end_ns))
@@ -146,17 +134,18 @@ void Vloam::handle(const LidarScan& scan) {
   gate_.count_used(Module::kLidar);
   const StopWatch watch;
   const auto points_in_body = deskew(scan, track_, calibration_.body_from_lidar, scan.end_ns);
-  if (config_.lidar_enabled) refine_with_scan(scan, points_in_body);
+  if (config_.lidar_enabled) {
+    const std::optional<LidarScan> sweep = sweeps_.add(scan);
+    const bool in_parts = sweep && sweep->points.size() != scan.points.size();
+    if (in_parts && track_.covers(sweep->stamp_ns)) {
+      refine_with_scan(*sweep, deskew(*sweep, track_, calibration_.body_from_lidar, sweep->end_ns));
+    } else if (sweep && !in_parts) {
+      refine_with_scan(scan, points_in_body);
+    }
+  }
 
   const Pose world_from_body = track_.at(scan.end_ns);
-  if (config_.vision_enabled) {
-    const Eigen::Isometry3f transform =
-        Eigen::Translation3f(world_from_body.translation.cast<float>()) * world_from_body.rotation.cast<float>();
-    std::vector<Eigen::Vector3f> points_in_world;
-    points_in_world.reserve(points_in_body.size());
-    for (const Eigen::Vector3f& p : points_in_body) points_in_world.push_back(transform * p);
-    vision_.add_depth_points(scan.end_ns, points_in_world);
-  }
+  if (config_.vision_enabled) vision_.add_depth_points(scan.end_ns, points_in_body, world_from_body);
   if (!health_.empty() && health_.back().module == Module::kLidar) health_.back().processing_s = watch.seconds();
 }
 
@@ -181,18 +170,7 @@ void Vloam::correct(Update&& update) {
 
 void Vloam::report(std::int64_t stamp_ns, Module module, const SolveResult& solved, const Pose& predicted,
                    double seconds) {
-  ModuleHealth health;
-  health.stamp_ns = stamp_ns;
-  health.module = module;
-  health.mode = mode_of(solved.spectrum.well_conditioned);
-  health.eigenvalues = solved.spectrum.eigenvalues;
-  health.eigenvectors = solved.spectrum.eigenvectors;
-  health.well_conditioned = solved.spectrum.well_conditioned;
-  health.rows = solved.features;
-  health.inliers = solved.inliers;
-  health.correction = predicted.local(solved.pose);
-  health.processing_s = seconds;
-  health_.push_back(health);
+  health_.push_back(health_of(stamp_ns, module, solved, predicted, seconds));
 }
 
 Odometry Vloam::output(std::int64_t stamp_ns) const {

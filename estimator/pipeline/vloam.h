@@ -9,6 +9,7 @@
 #include "estimator/imu/inertial_filter.h"
 #include "estimator/imu/initialization.h"
 #include "estimator/lidar/scan_matcher.h"
+#include "estimator/lidar/sweep_assembler.h"
 #include "estimator/pipeline/message_gate.h"
 #include "estimator/vision/visual_odometry.h"
 
@@ -24,6 +25,8 @@ class Vloam final : public Estimator {
   void add(const CameraFrame& frame) override;
   void add(const DepthFrame& frame) override;
   void add(const LidarScan& scan) override;
+  /// Points that someone else found and identified, in place of a camera's images.
+  void add(const PointFrame& frame);
   std::vector<Odometry> take() override;
   MessageCounts counts(Module module) const override;
   std::vector<TrackedFeature> features() const override;
@@ -36,7 +39,11 @@ class Vloam final : public Estimator {
   void advance_to(std::int64_t stamp_ns, const InertialSegment& segment);
   void handle(const MessageGate::Message& message);
   void handle(const CameraFrame& frame);
+  void handle(const PointFrame& frame);
+  void handle(const DepthFrame& frame);
   void handle(const LidarScan& scan);
+  template <typename Frame>
+  void see(const Frame& frame);
   void refine_with_scan(const LidarScan& scan, const std::vector<Eigen::Vector3f>& points_in_body);
   /// Lets an update act, and moves the recent track with it, so that the track's inner shape stays the IMU's.
   template <typename Update>
@@ -51,6 +58,7 @@ class Vloam final : public Estimator {
   std::optional<InertialFilter> filter_;  ///< empty until the start is known
   VisualOdometry vision_;
   ScanMatcher matcher_;
+  SweepAssembler sweeps_;
 
   ImuSample last_sample_;
   PoseTrack track_;  ///< world_from_body over the last sweep or so

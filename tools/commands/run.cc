@@ -11,6 +11,7 @@
 #include "tools/exit_code.h"
 #include "tools/interrupt.h"
 #include "tools/output/run_files.h"
+#include "tools/outside/open_estimator.h"
 #include "tools/output/summary.h"
 #include "tools/progress_line.h"
 
@@ -45,7 +46,8 @@ RunRecord simulate(const Scenario& scenario, const World& world, const RayScene&
     return !interrupted();
   };
   try {
-    return run_session(scenario, world, rays, options);
+    const auto estimator = open_estimator(scenario);
+    return run_session(scenario, world, rays, options, *estimator);
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& error) {
