@@ -30,6 +30,8 @@ class SweepOdometry {
 
   /// Begins a sweep. @param last_sweep  features of the sweep before, in B at reference_ns, its middle
   void begin(const FeatureCloud& last_sweep, std::int64_t reference_ns);
+  /// Forgets the growing sweep.
+  void discard() { sweep_ = {}; }
   /// Replaces the sweep before by a better one of the same; the growing sweep stays.
   void revise(const FeatureCloud& last_sweep);
   bool begun() const { return begun_; }

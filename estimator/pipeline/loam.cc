@@ -11,6 +11,8 @@ namespace plumbline {
 namespace {
 
 constexpr std::int64_t kTrackLength_ns = 3'000'000'000;  // the sweep before, the growing one and a late arrival
+// After a longer silence of the lidar the motion is no longer linear: odometry starts anew.
+constexpr std::int64_t kLongestGap_ns = 2'500'000'000;
 constexpr std::int64_t kMaxImuGap_ns = 500'000'000;
 
 // A solution's rows share errors that whitening does not know: the map's, or the last sweep's.
@@ -34,7 +36,7 @@ MessageUse use_of(ImuUse imu) {
 std::int64_t newest_return_ns(const LidarScan& scan) {
   std::int32_t newest_ns = 0;
   for (const LidarPoint& point : scan.points) newest_ns = std::max(newest_ns, point.offset_ns);
-  return scan.stamp_ns + newest_ns;
+  return std::min(scan.stamp_ns + newest_ns, scan.end_ns);
 }
 
 void move(std::vector<FeaturePoint>& features, const Pose& target_from_source, float later_s) {
@@ -121,7 +123,11 @@ void Loam::handle(const LidarScan& part) {
   const StopWatch watch;
   const std::optional<LidarScan> sweep = assembler_.add(part);
   const std::int64_t now_ns = newest_return_ns(part);
+  if (now_ns - odometry_.reference_ns() > kLongestGap_ns) odometry_ = SweepOdometry(calibration_, remapping_);
+  if (growing_ && *growing_ != part.sweep) odometry_.discard();  // its end never came
+  growing_ = part.sweep;
   if (odometry_.begun() && now_ns > odometry_.reference_ns()) follow(part, now_ns);
+  if (sweep) growing_.reset();
   if (sweep) finish({*sweep, newest_return_ns(*sweep), sweep->stamp_ns != part.stamp_ns});
   if (!health_.empty() && sweep) health_.back().processing_s = watch.seconds();
 }
@@ -146,7 +152,7 @@ void Loam::finish(const Sweep& sweep) {
     return begin_sweep(std::move(features), middle_ns, sweep.end_ns,
                        track_.at(middle_ns).inverse() * track_.at(sweep.end_ns));
   }
-  if (followed_ns_ != sweep.end_ns) return gate_.drop(Module::kLidar, "back in time");
+  if (followed_ns_ != sweep.end_ns) return odometry_.discard();
   if (first_) redo_first_sweep();
   // Of a sweep in parts the whole is taken up anew: across all its lines normals reach further.
   FeatureCloud features = sweep.in_parts

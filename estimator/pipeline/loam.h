@@ -81,12 +81,13 @@ class Loam final : public Estimator {
   ScanMatcher matcher_;
 
   ImuSample last_sample_;
-  PoseTrack track_;               ///< world_from_body as predicted since the last sweep's end, and a while before
-  std::optional<Sweep> first_;    ///< while it waits for the second
-  std::int64_t last_end_ns_ = 0;  ///< of the sweep before
-  Pose reference_from_last_end_;  ///< the reference is B in the middle of the sweep before
-  std::int64_t followed_ns_ = 0;  ///< up to where odometry has followed the growing sweep
-  SolveResult motion_;            ///< its solution there, reference_from_body
+  PoseTrack track_;  ///< world_from_body as predicted since the last sweep's end, and a while before
+  std::optional<std::int64_t> growing_;  ///< number of the sweep that grows
+  std::optional<Sweep> first_;           ///< while it waits for the second
+  std::int64_t last_end_ns_ = 0;         ///< of the sweep before
+  Pose reference_from_last_end_;         ///< the reference is B in the middle of the sweep before
+  std::int64_t followed_ns_ = 0;         ///< up to where odometry has followed the growing sweep
+  SolveResult motion_;                   ///< its solution there, reference_from_body
   double path_m_ = 0.0;
   Eigen::Vector3d last_position_ = Eigen::Vector3d::Zero();
 
