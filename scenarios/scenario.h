@@ -109,6 +109,9 @@ struct Scenario {
   std::optional<std::string> expect_status;
 };
 
+/// Sixteen hexadecimal digits that tell one text from another, the same over machines and years.
+std::string digest_of(const std::string& text);
+
 /// Reads a scenario with its bases and command-line overrides ("key.path=value").
 /// @throws InputError for anything missing, malformed, unknown or impossible.
 Scenario load_scenario(const std::filesystem::path& path, const std::vector<std::string>& overrides,

@@ -8,6 +8,7 @@
 #include "scenarios/bounded_queue.h"
 #include "scenarios/frame_stream.h"
 #include "scenarios/imu_stream.h"
+#include "scenarios/merged_source.h"
 #include "scenarios/scan_stream.h"
 
 namespace plumbline {
@@ -18,25 +19,6 @@ constexpr std::size_t kMessagesAhead = 60;
 
 // Drawing is more than half of a run's work: on a thread of its own it would keep everyone waiting.
 constexpr int kRendererThreads = 2;
-
-/// Two sources as one, in order of arrival; the first goes first at one time.
-class MergedSource {
- public:
-  MergedSource(MessageSource first, MessageSource second)
-      : first_(std::move(first)), second_(std::move(second)), next_first_(first_()), next_second_(second_()) {}
-
-  std::unique_ptr<SensorMessage> next() {
-    const bool take_first = next_first_ && (!next_second_ || next_first_->delivery_ns <= next_second_->delivery_ns);
-    return take_first ? std::exchange(next_first_, first_())
-                      : std::exchange(next_second_, next_second_ ? second_() : nullptr);
-  }
-
- private:
-  MessageSource first_;
-  MessageSource second_;
-  std::unique_ptr<SensorMessage> next_first_;
-  std::unique_ptr<SensorMessage> next_second_;
-};
 
 template <typename Stream>
 MessageSource source_of(std::shared_ptr<Stream> stream) {
@@ -79,17 +61,13 @@ MessageSource linked(MessageSource source, FaultySensor sensor, const Scenario& 
   return source_of(std::make_shared<SensorLink>(std::move(source), sensor, scenario));
 }
 
-MessageSource merged(MessageSource first, MessageSource second) {
-  return source_of(std::make_shared<MergedSource>(std::move(first), std::move(second)));
-}
-
 /// The costly sensors as they come, the IMU, and everyone's way to the estimator.
 MessageSource all_sensors(const Scenario& scenario, const Trajectory& world_from_body, MessageSource frames,
                           MessageSource scans) {
   MessageSource samples = source_of(std::make_shared<ImuStream>(scenario, world_from_body));
-  return merged(linked(std::move(samples), FaultySensor::kImu, scenario),
-                merged(linked(std::move(frames), FaultySensor::kCamera, scenario),
-                       linked(std::move(scans), FaultySensor::kLidar, scenario)));
+  return merged_sources(linked(std::move(samples), FaultySensor::kImu, scenario),
+                        merged_sources(linked(std::move(frames), FaultySensor::kCamera, scenario),
+                                       linked(std::move(scans), FaultySensor::kLidar, scenario)));
 }
 
 }  // namespace

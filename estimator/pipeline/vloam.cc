@@ -39,13 +39,14 @@ Calibration effective(Calibration calibration, const EstimatorConfig& config) {
 
 }  // namespace
 
-Vloam::Vloam(const Calibration& calibration, const EstimatorConfig& config)
+Vloam::Vloam(const Calibration& calibration, const EstimatorConfig& config, const VisionConfig& vision,
+             const ScanMatcherConfig& matcher)
     : calibration_(effective(calibration, config)),
       config_(config),
       gate_(message_use(calibration_, config)),
       initializer_(calibration_),
-      vision_(calibration_, VisionConfig{}, config.remapping),
-      matcher_(calibration_, ScanMatcherConfig{}, config.remapping) {}
+      vision_(calibration_, vision, config.remapping),
+      matcher_(calibration_, matcher, config.remapping) {}
 
 void Vloam::add(const ImuSample& received) {
   std::optional<ImuSample> sample = gate_.admit(received);

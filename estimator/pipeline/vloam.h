@@ -19,7 +19,8 @@ namespace plumbline {
 /// refines against the map, each only along the directions that its data determine; both feed back to the IMU.
 class Vloam final : public Estimator {
  public:
-  Vloam(const Calibration& calibration, const EstimatorConfig& config);
+  Vloam(const Calibration& calibration, const EstimatorConfig& config, const VisionConfig& vision = {},
+        const ScanMatcherConfig& matcher = {});
 
   void add(const ImuSample& sample) override;
   void add(const CameraFrame& frame) override;
