@@ -118,10 +118,10 @@ class Extraction {
         if (!table.lines_in_turn()) return;
       }
     }
-    /// The return of the same firing, or of lines in turn that of the nearest direction; -1 where there is none.
+    /// The return of the same firing; of lines in turn, or without times, that of the nearest direction; -1 for none.
     /// Lines in turn meet on the motor's axis: near it, a line further off is read.
     int at(int i) {
-      if (!table_.lines_in_turn()) return count_ > 0 ? of_firing(table_.offset_ns(i)) : -1;
+      if (!table_.lines_in_turn() && table_.timed()) return count_ > 0 ? of_firing(table_.offset_ns(i)) : -1;
       for (int w = 0; w < count_; ++w) {
         Walk& walk = walks_.at(static_cast<std::size_t>(w));
         while (walk.next + 1 < walk.end && apart(i, walk.next + 1) <= apart(i, walk.next)) ++walk.next;

@@ -70,6 +70,12 @@ std::unique_ptr<Estimator> make_demo(const std::string& name, const Calibration&
   return std::make_unique<Demo>(calibration, config, stages);
 }
 
+std::unique_ptr<Estimator> make_loam(const std::string& name, const Calibration& calibration,
+                                     const EstimatorConfig& config) {
+  if (name == "loam_imu_orientation") return std::make_unique<Loam>(calibration, config, ImuUse::kOrientation);
+  return std::make_unique<Loam>(calibration, config, config.imu_enabled ? ImuUse::kFull : ImuUse::kNone);
+}
+
 void validate_or_throw(const std::string& name, const Calibration& calibration) {
   const auto& library = estimator_library();
   if (std::none_of(library.begin(), library.end(), [&](const EstimatorInfo& info) { return info.name == name; })) {
@@ -88,10 +94,7 @@ void validate_or_throw(const std::string& name, const Calibration& calibration) 
 std::unique_ptr<Estimator> make_estimator(const std::string& name, const Calibration& calibration,
                                           const EstimatorConfig& config) {
   validate_or_throw(name, calibration);
-  if (name == "loam") {
-    return std::make_unique<Loam>(calibration, config, config.imu_enabled ? ImuUse::kFull : ImuUse::kNone);
-  }
-  if (name == "loam_imu_orientation") return std::make_unique<Loam>(calibration, config, ImuUse::kOrientation);
+  if (name.starts_with("loam")) return make_loam(name, calibration, config);
   const bool demo = name.starts_with("demo") || name == "vo_depth_only";
   return demo ? make_demo(name, calibration, config) : make_vloam(name, calibration, config);
 }
