@@ -89,11 +89,12 @@ void Demo::see(const Frame& frame) {
   }
   if (!odometry_.empty() && frame.stamp_ns <= odometry_.last_ns()) return gate_.drop(Module::kVision, "late");
   gate_.count_used(Module::kVision);
+  const bool has_previous = vision_.started();
   const std::int64_t previous_ns = vision_.newest_ns();
   const FrameToFrame::Step step = vision_.process(frame);
   odometry_.push(frame.stamp_ns, vision_.odometry_from_body());
   odometry_.forget_before(frame.stamp_ns - kTrackLength_ns);
-  if (previous_ns != 0) note(step, previous_ns);
+  if (has_previous) note(step, previous_ns);
   use_scans(frame.stamp_ns);
   adjust_when_due();
   health_.push_back(health_of(frame.stamp_ns, Module::kVision, step.solved, step.predicted, watch.seconds()));
@@ -135,14 +136,12 @@ void Demo::adjust_when_due() {
 
 void Demo::use_scans(std::int64_t now_ns) {
   while (!scans_.empty()) {
+    const std::int64_t end_ns = scans_.front().end_ns;
+    const bool covered = !odometry_.empty() && end_ns <= odometry_.last_ns();
+    if (!covered && now_ns < end_ns + kLongestWait_ns) return;
+    if (!covered && vision_.started()) odometry_.push(end_ns, vision_.predicted(end_ns));
     const LidarScan scan = std::move(scans_.front());
-    const bool covered = !odometry_.empty() && scan.end_ns <= odometry_.last_ns();
-    if (!covered && now_ns < scan.end_ns + kLongestWait_ns) {
-      scans_.front() = scan;
-      return;
-    }
     scans_.pop_front();
-    if (!covered && vision_.started()) odometry_.push(scan.end_ns, vision_.predicted(scan.end_ns));
     use(scan);
   }
 }
