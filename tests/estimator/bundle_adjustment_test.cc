@@ -67,9 +67,9 @@ TEST(BundleAdjustment, RemovesMostOfTheDriftAndLeavesTheFirstImage) {
     const auto after = adjust_bundle(window.images, stereo_calibration(), {});
     ASSERT_TRUE(after.has_value());
     EXPECT_LT(after->front().translation.norm(), 1e-9);
-    // Some 30 mm of drift before; 300 pixels of 0.25 px noise at 5 m fix a camera to millimetres.
+    // Some 10 cm of drift before; a hundred points of 0.25 px noise at 10 m fix a camera to a centimetre or two.
     EXPECT_LT(worst_error_m(window, *after), 0.3 * worst_error_m(window, before)) << "seed " << seed;
-    EXPECT_LT(worst_error_m(window, *after), 0.015) << "seed " << seed;
+    EXPECT_LT(worst_error_m(window, *after), 0.025) << "seed " << seed;
   }
 }
 
