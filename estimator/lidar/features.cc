@@ -118,10 +118,10 @@ class Extraction {
         if (!table.lines_in_turn()) return;
       }
     }
-    /// The return of the same firing, or of lines in turn that of the nearest direction; -1 where there is none.
+    /// The return of the same firing; of lines in turn, or without times, that of the nearest direction; -1 for none.
     /// Lines in turn meet on the motor's axis: near it, a line further off is read.
     int at(int i) {
-      if (!table_.lines_in_turn()) return count_ > 0 ? of_firing(table_.offset_ns(i)) : -1;
+      if (!table_.lines_in_turn() && table_.timed()) return count_ > 0 ? of_firing(table_.offset_ns(i)) : -1;
       for (int w = 0; w < count_; ++w) {
         Walk& walk = walks_.at(static_cast<std::size_t>(w));
         while (walk.next + 1 < walk.end && apart(i, walk.next + 1) <= apart(i, walk.next)) ++walk.next;
@@ -326,6 +326,18 @@ FeatureCloud extract_features(const LidarScan& scan, const std::vector<Eigen::Ve
   const RingTable table(scan, points_in_body, calibration);
   const Extraction extraction(table, calibration);
   return {extraction.edges(), extraction.planes()};
+}
+
+void move(FeatureCloud& features, const Pose& target_from_source, float later_s) {
+  const Eigen::Matrix3f rotation = target_from_source.rotation.toRotationMatrix().cast<float>();
+  const Eigen::Vector3f translation = target_from_source.translation.cast<float>();
+  for (std::vector<FeaturePoint>* kind : {&features.edges, &features.planes}) {
+    for (FeaturePoint& f : *kind) {
+      f.position = rotation * f.position + translation;
+      f.normal = rotation * f.normal;
+      f.offset_s += later_s;
+    }
+  }
 }
 
 }  // namespace plumbline

@@ -20,6 +20,8 @@ RingTable::RingTable(const LidarScan& scan, const std::vector<Eigen::Vector3f>& 
   sort_by_ring(scan, points_in_body, calibration);
   measure_rings();
   lines_in_turn_ = follow_each_other();
+  timed_ = std::any_of(entries_.begin(), entries_.end(),
+                       [&](const Entry& e) { return e.offset_ns != entries_.front().offset_ns; });
   cut_runs();
   sums_.reserve(entries_.size() + 1);
   sums_.emplace_back(Eigen::Vector3d::Zero());

@@ -22,6 +22,8 @@ class RingTable {
   float beam_spacing(int ring) const { return rings_[static_cast<std::size_t>(ring)].spacing; }
   /// True of a line scanner turned by a motor: its rings are lines that follow each other in time.
   bool lines_in_turn() const { return lines_in_turn_; }
+  /// False where all returns bear one time, as in recordings that were motion-compensated.
+  bool timed() const { return timed_; }
   /// Least angle between rings across which normals are read [rad]; across closer ones range noise would tilt them.
   static constexpr float kCrossAngle = 0.025F;
   /// The nearest ring at least kCrossAngle above (direction 1) or below (-1), or -1. Of lines in turn the next one.
@@ -72,6 +74,7 @@ class RingTable {
   std::vector<int> begin_;
   std::vector<Ring> rings_;
   bool lines_in_turn_ = false;
+  bool timed_ = false;
   std::vector<Eigen::Vector3d> sums_;  // sums_[i] is the sum over [0, i)
 };
 

@@ -16,7 +16,7 @@ namespace {
 constexpr double kLeastSigma_m = 0.02;  // as in scan matching
 constexpr int kPlaneNeighbours = 10;
 constexpr int kLineNeighbours = 16;
-constexpr int kPlaneBudget = 800;
+constexpr int kPlaneBudget = 1200;
 constexpr int kEdgeBudget = 200;
 constexpr int kLeastFeatures = 50;
 constexpr int kMaxIterations = 15;
@@ -29,6 +29,8 @@ constexpr double kLeastReach_m = 1.0;
 constexpr double kLargestReach_m = 2.0;
 constexpr double kReachPerRange = 0.1;
 constexpr double kLargestDoubt_m = 4.0;
+constexpr double kCoarseDoubt_m = 0.1;
+constexpr double kUnitNoiseMad = 0.6745;
 
 double reach_of(const FeaturePoint& feature, double doubt_m) {
   const double range = feature.position.cast<double>().norm();
@@ -82,19 +84,20 @@ class LinearMotion {
 class SweepConstraints {
  public:
   SweepConstraints(const PointTree& edges, const PointTree& planes, const FeatureCloud& features, const Pose& predicted,
-                   double duration_s, double sigma_m, double map_sigma_m, double doubt_m)
+                   double duration_s, double sigma_m, double map_sigma_m)
       : edges_(edges),
         planes_(planes),
         features_(features),
         predicted_(predicted),
         duration_s_(duration_s),
-        sigma_m_(sigma_m),
-        doubt_m_(doubt_m) {
+        sigma_m_(sigma_m) {
     plane_limits_.map_sigma_m = edge_limits_.map_sigma_m = map_sigma_m;
     edge_limits_.largest_residual_m = 0.03;
     edge_limits_.largest_tilt_sigma = 0.05;
     plane_limits_.largest_tilt_sigma = 0.05;
   }
+
+  void start_with(double doubt_m) { doubt_m_ = doubt_m; }
 
   void linearize(const Pose& reference_from_body, ResidualRows& rows) {
     const LinearMotion motion(predicted_, reference_from_body);
@@ -136,17 +139,17 @@ class SweepConstraints {
   const Pose& predicted_;
   double duration_s_;
   double sigma_m_;
-  double doubt_m_;
+  double doubt_m_ = 0.0;
   FitLimits plane_limits_;
   FitLimits edge_limits_;
 };
 
-FeatureCloud within_budget(const FeatureCloud& from) {
+FeatureCloud within_budget(const FeatureCloud& from, int effort) {
   FeatureCloud used;
-  const std::size_t edges = std::min<std::size_t>(from.edges.size(), kEdgeBudget);
+  const std::size_t edges = std::min(from.edges.size(), static_cast<std::size_t>(effort * kEdgeBudget));
   used.edges.reserve(edges);
   for (std::size_t k = 0; k < edges; ++k) used.edges.push_back(from.edges[k * from.edges.size() / edges]);
-  const std::vector<std::uint32_t> picked = sample_by_direction(from.planes, kPlaneBudget);
+  const std::vector<std::uint32_t> picked = sample_by_direction(from.planes, effort * kPlaneBudget);
   used.planes.reserve(picked.size());
   for (const std::uint32_t i : picked) used.planes.push_back(from.planes[i]);
   return used;
@@ -183,7 +186,8 @@ void SweepOdometry::add(const FeatureCloud& predicted_in_reference) {
   append(sweep_.planes, predicted_in_reference.planes);
 }
 
-SolveResult SweepOdometry::solve(std::int64_t now_ns, const PosePrior& reference_from_body) {
+SolveResult SweepOdometry::solve(std::int64_t now_ns, const PosePrior& reference_from_body,
+                                 const std::optional<Pose>& known, int effort) const {
   SolverOptions options;
   options.max_iterations = kMaxIterations;
   options.rotation_tolerance = 1e-4;
@@ -191,15 +195,22 @@ SolveResult SweepOdometry::solve(std::int64_t now_ns, const PosePrior& reference
   options.degeneracy_threshold = kDegeneracyThreshold;
   options.remapping = remapping_;
   options.min_features = kLeastFeatures;
-  const double duration_s = seconds_between(reference_ns_, now_ns);
-  const FeatureCloud used = within_budget(sweep_);
+  const FeatureCloud used = within_budget(sweep_, effort);
+  const Pose& predicted = reference_from_body.mean;
+  SweepConstraints constraints(edges_, planes_, used, predicted, seconds_between(reference_ns_, now_ns), sigma_m_,
+                               map_sigma_m_);
+  const auto solve_from = [&](const Pose& guess, double doubt_m) {
+    options.scale_floor = kUnitNoiseMad * (1.0 + doubt_m / sigma_m_);
+    constraints.start_with(doubt_m);
+    return plumbline::solve(
+        guess, reference_from_body, [&](const Pose& pose, ResidualRows& rows) { constraints.linearize(pose, rows); },
+        options);
+  };
+  if (known) return solve_from(*known, 0.0);
+  // Far from the solution the rows that would lead to it look like outliers. First all are believed.
   const double doubt_m =
       std::min(kLargestDoubt_m, 2.0 * std::sqrt(reference_from_body.covariance.bottomRightCorner<3, 3>().trace()));
-  SweepConstraints constraints(edges_, planes_, used, reference_from_body.mean, duration_s, sigma_m_, map_sigma_m_,
-                               doubt_m);
-  return plumbline::solve(
-      reference_from_body.mean, reference_from_body,
-      [&](const Pose& pose, ResidualRows& rows) { constraints.linearize(pose, rows); }, options);
+  return solve_from(doubt_m > kCoarseDoubt_m ? solve_from(predicted, doubt_m).pose : predicted, 0.0);
 }
 
 FeatureCloud SweepOdometry::corrected(std::int64_t now_ns, const Pose& predicted,

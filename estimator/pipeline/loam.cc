@@ -1,21 +1,24 @@
 #include "estimator/pipeline/loam.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include "estimator/lidar/deskew.h"
 #include "estimator/lidar/features.h"
+#include "estimator/pipeline/module_health.h"
 
 namespace plumbline {
 namespace {
 
 constexpr std::int64_t kTrackLength_ns = 3'000'000'000;  // the sweep before, the growing one and a late arrival
+// After a longer silence of the lidar the motion is no longer linear: odometry starts anew.
+constexpr std::int64_t kLongestGap_ns = 2'500'000'000;
 constexpr std::int64_t kMaxImuGap_ns = 500'000'000;
 
 // A solution's rows share errors that whitening does not know: the map's, or the last sweep's.
 constexpr double kInflation = 25.0;
 constexpr int kFirstSweepRounds = 3;
+constexpr int kFirstEffort = 6;
 constexpr double kLostSigma_m = 10.0;
 
 // Where the lidar alone tells the pose, odometry may be wrong by this much when it comes to matching with the map.
@@ -28,26 +31,6 @@ MessageUse use_of(ImuUse imu) {
   use.lidar = true;
   use.imu = imu != ImuUse::kNone;
   return use;
-}
-
-std::int64_t newest_return_ns(const LidarScan& scan) {
-  std::int32_t newest_ns = 0;
-  for (const LidarPoint& point : scan.points) newest_ns = std::max(newest_ns, point.offset_ns);
-  return scan.stamp_ns + newest_ns;
-}
-
-void move(std::vector<FeaturePoint>& features, const Pose& target_from_source, float later_s) {
-  const Eigen::Matrix3f rotation = target_from_source.rotation.toRotationMatrix().cast<float>();
-  const Eigen::Vector3f translation = target_from_source.translation.cast<float>();
-  for (FeaturePoint& f : features) {
-    f.position = rotation * f.position + translation;
-    f.normal = rotation * f.normal;
-    f.offset_s += later_s;
-  }
-}
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace
@@ -121,12 +104,16 @@ void Loam::handle(const LidarScan& part) {
   const bool known = track_.covers(part.end_ns) && (imu_ == ImuUse::kNone || track_.covers(part.stamp_ns));
   if (!known) return gate_.drop(Module::kLidar, "before the start");
   gate_.count_used(Module::kLidar);
-  const auto start = std::chrono::steady_clock::now();
+  const StopWatch watch;
   const std::optional<LidarScan> sweep = assembler_.add(part);
   const std::int64_t now_ns = newest_return_ns(part);
+  if (now_ns - odometry_.reference_ns() > kLongestGap_ns) odometry_ = SweepOdometry(calibration_, remapping_);
+  if (growing_ && *growing_ != part.sweep) odometry_.discard();  // its end never came
+  growing_ = part.sweep;
   if (odometry_.begun() && now_ns > odometry_.reference_ns()) follow(part, now_ns);
+  if (sweep) growing_.reset();
   if (sweep) finish({*sweep, newest_return_ns(*sweep), sweep->stamp_ns != part.stamp_ns});
-  if (!health_.empty() && sweep) health_.back().processing_s = seconds_since(start);
+  if (!health_.empty() && sweep) health_.back().processing_s = watch.seconds();
 }
 
 /// Odometry within the growing sweep.
@@ -134,10 +121,9 @@ void Loam::follow(const LidarScan& part, std::int64_t now_ns) {
   FeatureCloud features = features_of(part, track_, now_ns);
   const Pose predicted = predicted_motion(now_ns);
   const auto later_s = static_cast<float>(seconds_between(odometry_.reference_ns(), part.stamp_ns));
-  move(features.edges, predicted, later_s);
-  move(features.planes, predicted, later_s);
+  move(features, predicted, later_s);
   odometry_.add(features);
-  motion_ = odometry_.solve(now_ns, {predicted, motion_covariance(now_ns)});
+  motion_ = odometry_.solve(now_ns, {predicted, motion_covariance(now_ns)}, std::nullopt, effort());
   followed_ns_ = now_ns;
 }
 
@@ -146,9 +132,10 @@ void Loam::finish(const Sweep& sweep) {
   if (!odometry_.begun()) {
     first_ = sweep;
     FeatureCloud features = features_of(sweep.scan, track_, sweep.end_ns);
-    return begin_sweep(std::move(features), middle_ns, sweep.end_ns, track_.at(middle_ns).inverse() * track_.at(sweep.end_ns));
+    return begin_sweep(std::move(features), middle_ns, sweep.end_ns,
+                       track_.at(middle_ns).inverse() * track_.at(sweep.end_ns));
   }
-  if (followed_ns_ != sweep.end_ns) return gate_.drop(Module::kLidar, "back in time");
+  if (followed_ns_ != sweep.end_ns) return odometry_.discard();
   if (first_) redo_first_sweep();
   // Of a sweep in parts the whole is taken up anew: across all its lines normals reach further.
   FeatureCloud features = sweep.in_parts
@@ -168,7 +155,8 @@ void Loam::redo_first_sweep() {
   for (int round = 0; round < kFirstSweepRounds; ++round) {
     features = features_of(first_->scan, corrected_track(), middle_ns);
     odometry_.revise(features);
-    motion_ = odometry_.solve(followed_ns_, {predicted_motion(followed_ns_), motion_covariance(followed_ns_)});
+    motion_ = odometry_.solve(followed_ns_, {predicted_motion(followed_ns_), motion_covariance(followed_ns_)},
+                              motion_.pose, effort());
   }
   matcher_.insert(features, world_from_reference(), path_m_);
   last_position_ = world_from_reference().translation;
@@ -180,7 +168,7 @@ void Loam::match(const FeatureCloud& features, std::int64_t stamp_ns) {
   if (mapping_) {
     const SolveResult solved = matcher_.match(features, {predicted, pose_covariance()});
     take_pose(solved, predicted);
-    report(stamp_ns, solved, predicted);
+    health_.push_back(health_of(stamp_ns, Module::kLidar, solved, predicted, 0.0));
   }
   const Pose world_from_body = track_.at(stamp_ns);
   path_m_ += (world_from_body.translation - last_position_).norm();
@@ -193,8 +181,7 @@ void Loam::match(const FeatureCloud& features, std::int64_t stamp_ns) {
 void Loam::take_motion(std::int64_t now_ns) {
   if (!steady_) return;
   const Pose moved = corrected(track_.at(now_ns), now_ns) * track_.at(now_ns).inverse();
-  steady_->follow(moved * state().world_from_body, motion_.pose,
-                  seconds_between(odometry_.reference_ns(), now_ns));
+  steady_->follow(moved * state().world_from_body, motion_.pose, seconds_between(odometry_.reference_ns(), now_ns));
   track_.premultiply(moved);
 }
 
@@ -208,8 +195,7 @@ void Loam::take_pose(const SolveResult& solved, const Pose& predicted) {
 /// @param last_sweep  in B at its end
 void Loam::begin_sweep(FeatureCloud last_sweep, std::int64_t middle_ns, std::int64_t end_ns,
                        const Pose& middle_from_end) {
-  move(last_sweep.edges, middle_from_end, 0.0F);
-  move(last_sweep.planes, middle_from_end, 0.0F);
+  move(last_sweep, middle_from_end, 0.0F);
   odometry_.begin(last_sweep, middle_ns);
   last_end_ns_ = end_ns;
   reference_from_last_end_ = middle_from_end;
@@ -227,10 +213,11 @@ FeatureCloud Loam::features_of(const LidarScan& scan, const PoseTrack& world_fro
 
 Pose Loam::world_from_reference() const { return track_.at(last_end_ns_) * reference_from_last_end_.inverse(); }
 
+/// While no motion is known, cars that move along may outvote what stands still.
+int Loam::effort() const { return first_ ? kFirstEffort : 1; }
+
 /// reference_from_body.
-Pose Loam::predicted_motion(std::int64_t now_ns) const {
-  return world_from_reference().inverse() * track_.at(now_ns);
-}
+Pose Loam::predicted_motion(std::int64_t now_ns) const { return world_from_reference().inverse() * track_.at(now_ns); }
 
 Matrix6d Loam::motion_covariance(std::int64_t now_ns) const {
   return filter_ ? filter_->keyframe_motion_covariance()
@@ -260,23 +247,6 @@ PoseTrack Loam::corrected_track() const {
   PoseTrack result;
   for (const PoseTrack::Stamped& at : track_.poses()) result.push(at.stamp_ns, corrected(at.pose, at.stamp_ns));
   return result;
-}
-
-void Loam::report(std::int64_t stamp_ns, const SolveResult& solved, const Pose& predicted) {
-  ModuleHealth health;
-  health.stamp_ns = stamp_ns;
-  health.module = Module::kLidar;
-  const int well_conditioned = solved.spectrum.well_conditioned;
-  health.mode = well_conditioned == 6   ? ModuleMode::kSolved
-                : well_conditioned == 0 ? ModuleMode::kBypassed
-                                        : ModuleMode::kPartial;
-  health.eigenvalues = solved.spectrum.eigenvalues;
-  health.eigenvectors = solved.spectrum.eigenvectors;
-  health.well_conditioned = well_conditioned;
-  health.rows = solved.features;
-  health.inliers = solved.inliers;
-  health.correction = predicted.local(solved.pose);
-  health_.push_back(health);
 }
 
 Odometry Loam::output(std::int64_t stamp_ns) const {

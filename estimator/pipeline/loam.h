@@ -59,13 +59,13 @@ class Loam final : public Estimator {
   void take_pose(const SolveResult& solved, const Pose& predicted);
   void begin_sweep(FeatureCloud last_sweep, std::int64_t middle_ns, std::int64_t end_ns, const Pose& middle_from_end);
   FeatureCloud features_of(const LidarScan& scan, const PoseTrack& world_from_body, std::int64_t reference_ns) const;
+  int effort() const;
   Pose world_from_reference() const;
   Pose predicted_motion(std::int64_t now_ns) const;
   Matrix6d motion_covariance(std::int64_t now_ns) const;
   Matrix6d pose_covariance() const;
   Pose corrected(const Pose& world_from_body, std::int64_t stamp_ns) const;
   PoseTrack corrected_track() const;
-  void report(std::int64_t stamp_ns, const SolveResult& solved, const Pose& predicted);
   Odometry output(std::int64_t stamp_ns) const;
 
   Calibration calibration_;
@@ -82,11 +82,12 @@ class Loam final : public Estimator {
 
   ImuSample last_sample_;
   PoseTrack track_;  ///< world_from_body as predicted since the last sweep's end, and a while before
-  std::optional<Sweep> first_;       ///< while it waits for the second
-  std::int64_t last_end_ns_ = 0;     ///< of the sweep before
-  Pose reference_from_last_end_;     ///< the reference is B in the middle of the sweep before
-  std::int64_t followed_ns_ = 0;  ///< up to where odometry has followed the growing sweep
-  SolveResult motion_;            ///< its solution there, reference_from_body
+  std::optional<std::int64_t> growing_;  ///< number of the sweep that grows
+  std::optional<Sweep> first_;           ///< while it waits for the second
+  std::int64_t last_end_ns_ = 0;         ///< of the sweep before
+  Pose reference_from_last_end_;         ///< the reference is B in the middle of the sweep before
+  std::int64_t followed_ns_ = 0;         ///< up to where odometry has followed the growing sweep
+  SolveResult motion_;                   ///< its solution there, reference_from_body
   double path_m_ = 0.0;
   Eigen::Vector3d last_position_ = Eigen::Vector3d::Zero();
 

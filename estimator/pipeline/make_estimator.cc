@@ -44,6 +44,7 @@ const std::vector<EstimatorInfo>& estimator_library() {
       {"demo", "frame-to-frame visual odometry with depth and bundle adjustment, no IMU (DEMO)"},
       {"demo_no_ba", "the same without bundle adjustment"},
       {"demo_matched", "frame-to-frame visual odometry and scan matching, no IMU (DEMO + scan matching)"},
+      {"demo_loam", "frame-to-frame visual odometry, refined sweep to sweep and sweep to map, no IMU (three stages)"},
       {"vo_depth_only", "frame-to-frame visual odometry that uses only features with measured depth, no IMU"},
   };
   return library;
@@ -67,7 +68,14 @@ std::unique_ptr<Estimator> make_demo(const std::string& name, const Calibration&
   stages.bundle_adjustment = name == "demo";
   stages.map_depth_only = name == "vo_depth_only";
   stages.scan_matching = name == "demo_matched";
+  stages.sweep_refinement = name == "demo_loam";
   return std::make_unique<Demo>(calibration, config, stages);
+}
+
+std::unique_ptr<Estimator> make_loam(const std::string& name, const Calibration& calibration,
+                                     const EstimatorConfig& config) {
+  if (name == "loam_imu_orientation") return std::make_unique<Loam>(calibration, config, ImuUse::kOrientation);
+  return std::make_unique<Loam>(calibration, config, config.imu_enabled ? ImuUse::kFull : ImuUse::kNone);
 }
 
 void validate_or_throw(const std::string& name, const Calibration& calibration) {
@@ -88,10 +96,7 @@ void validate_or_throw(const std::string& name, const Calibration& calibration) 
 std::unique_ptr<Estimator> make_estimator(const std::string& name, const Calibration& calibration,
                                           const EstimatorConfig& config) {
   validate_or_throw(name, calibration);
-  if (name == "loam") {
-    return std::make_unique<Loam>(calibration, config, config.imu_enabled ? ImuUse::kFull : ImuUse::kNone);
-  }
-  if (name == "loam_imu_orientation") return std::make_unique<Loam>(calibration, config, ImuUse::kOrientation);
+  if (name.starts_with("loam")) return make_loam(name, calibration, config);
   const bool demo = name.starts_with("demo") || name == "vo_depth_only";
   return demo ? make_demo(name, calibration, config) : make_vloam(name, calibration, config);
 }

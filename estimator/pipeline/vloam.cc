@@ -10,7 +10,7 @@
 namespace plumbline {
 namespace {
 
-constexpr std::int64_t kTrackLength_ns = MessageGate::kLongestDelay_ns;
+constexpr std::int64_t kTrackLength_ns = MessageGate::kLongestDelay_ns + SweepAssembler::kLongest_ns;
 constexpr std::int64_t kMaxImuGap_ns = 500'000'000;
 
 // A solution's rows share errors that whitening does not know: features of one key-frame share its depth errors over
@@ -148,7 +148,15 @@ void Vloam::handle(const LidarScan& scan) {
   gate_.count_used(Module::kLidar);
   const StopWatch watch;
   const auto points_in_body = deskew(scan, track_, calibration_.body_from_lidar, scan.end_ns);
-  if (config_.lidar_enabled) refine_with_scan(scan, points_in_body);
+  if (config_.lidar_enabled) {
+    const std::optional<LidarScan> sweep = sweeps_.add(scan);
+    const bool in_parts = sweep && sweep->points.size() != scan.points.size();
+    if (in_parts && track_.covers(sweep->stamp_ns)) {
+      refine_with_scan(*sweep, deskew(*sweep, track_, calibration_.body_from_lidar, sweep->end_ns));
+    } else if (sweep && !in_parts) {
+      refine_with_scan(scan, points_in_body);
+    }
+  }
 
   const Pose world_from_body = track_.at(scan.end_ns);
   if (config_.vision_enabled) vision_.add_depth_points(scan.end_ns, points_in_body, world_from_body);

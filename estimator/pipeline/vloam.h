@@ -9,6 +9,7 @@
 #include "estimator/imu/inertial_filter.h"
 #include "estimator/imu/initialization.h"
 #include "estimator/lidar/scan_matcher.h"
+#include "estimator/lidar/sweep_assembler.h"
 #include "estimator/pipeline/message_gate.h"
 #include "estimator/vision/visual_odometry.h"
 
@@ -67,6 +68,7 @@ class Vloam final : public Estimator {
   std::optional<InertialFilter> filter_;  ///< empty until the start is known
   VisualOdometry vision_;
   ScanMatcher matcher_;
+  SweepAssembler sweeps_;
 
   ImuSample last_sample_;
   PoseTrack track_;                          ///< world_from_body over the last sweep or so
