@@ -165,7 +165,7 @@ TEST_F(ThesisRunnerTest, ResultsAndPageSayWhatIsKnown) {
       EXPECT_TRUE(row.contains(key)) << key;
     }
   }
-  EXPECT_EQ(json["rows"][0]["ours"], "0.5 %");
+  EXPECT_EQ(json["rows"][0]["ours"], "0.500 %");
   EXPECT_EQ(json["rows"][0]["holds"], true);
   EXPECT_EQ(json["rows"][0]["seeds"], 3);
   EXPECT_EQ(json["rows"][0]["version"], "1.0 (abc)");
