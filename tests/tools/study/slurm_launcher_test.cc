@@ -62,10 +62,14 @@ class Cluster {
     wait_until([] { return std::system("sinfo --noheader --states=idle 2>/dev/null | grep -q idle") == 0; }, "slurmd");
   }
   ~Cluster() {
-    // What still runs belongs to slurmd's step daemons, which end with their jobs.
+    // In an orderly way, so that helpers of theirs end too. Whatever is left after that is killed, munged last.
     [[maybe_unused]] const int status =
-        std::system("scancel --user=$(id -un) >/dev/null 2>&1; sleep 0.5; scontrol shutdown >/dev/null 2>&1");
-    // The controller before its node, and munged last.
+        std::system("scancel --user=$(id -un) >/dev/null 2>&1; scontrol shutdown >/dev/null 2>&1");
+    const auto has_ended = [](ChildProcess& process) { return process.poll().has_value(); };
+    for (int i = 0; i < 50 && daemons_.size() > 1; ++i) {
+      daemons_.remove_if(has_ended);
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
     while (!daemons_.empty()) daemons_.pop_back();
     unsetenv("SLURM_CONF");
   }
@@ -83,7 +87,7 @@ class Cluster {
         << "SelectType=select/cons_tres\nSelectTypeParameters=CR_CPU\n"
         << "SwitchType=switch/none\nMpiDefault=none\nJobAcctGatherType=jobacct_gather/none\n"
         << "AccountingStorageType=accounting_storage/none\nReturnToService=2\n"
-        << "SlurmUser=#" << getuid() << "\nSlurmdUser=#" << getuid() << "\n"
+        << "SlurmUser=" << getuid() << "\nSlurmdUser=" << getuid() << "\n"
         << "SlurmctldPort=" << free_port() << "\nSlurmdPort=" << free_port() << "\n"
         << "StateSaveLocation=" << at << "/state\nSlurmdSpoolDir=" << at << "/spool\n"
         << "SlurmctldPidFile=" << at << "/slurmctld.pid\nSlurmdPidFile=" << at << "/slurmd.pid\n"
