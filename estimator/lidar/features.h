@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "estimator/messages.h"
@@ -12,6 +13,7 @@ struct FeaturePoint {
   float intensity = 0.0F;
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< planes: unit, in B, towards the sensor; edges: zero
   float spread_m = 0.0F;  ///< edges: standard deviation across the edge that the spacing of the beams adds
+  int ring = 0;           ///< of its first return
 };
 
 /// What matching uses of one scan (thesis 5.12 and the selection rules of ch. 4).

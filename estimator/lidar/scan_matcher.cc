@@ -1,14 +1,19 @@
 #include "estimator/lidar/scan_matcher.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "estimator/lidar/correspondence.h"
 #include "estimator/lidar/direction_sampling.h"
 #include "estimator/lidar/voxel_map.h"
 
+#include <cstdio>
+#include <cstdlib>
 namespace plumbline {
+double knob(const char* n, double d);
 namespace {
 
 // Two range errors meet in a residual, the scan's and the map's. Below two centimetres the map's own errors (cells that
@@ -30,15 +35,20 @@ constexpr int kLineNeighbours = 16;
 constexpr double kSearchAgain_m = 0.02;
 constexpr double kSearchAgain_rad = 0.003;
 
+// A data sheet's accuracy does not say how much of it averages out. Half its variance is taken for a bias of each ring.
+constexpr double kBiasShare = 0.7071;
+
 struct PlaneMatch {
   Eigen::Vector3d point_in_body;
   MapPlane plane;
+  int ring;
 };
 
 struct LineMatch {
   Eigen::Vector3d point_in_body;
   MapLine line;
   double sigma_m;
+  int ring;
 };
 
 double reach_of(const FeaturePoint& feature) {
@@ -81,6 +91,8 @@ struct ScanMatcher::Impl {
     options.degeneracy_threshold = settings.degeneracy_threshold;
     options.remapping = remap;
     options.min_features = settings.least_features;
+    ring_bias_sigma_m = kBiasShare * calibration.lidar_range_sigma_m;
+    body_from_lidar = calibration.body_from_lidar;
     edge_limits.largest_residual_m = 0.03;
     plane_limits.map_sigma_m = edge_limits.map_sigma_m = 0.5 * calibration.lidar_range_sigma_m;
     edge_limits.largest_tilt_sigma = settings.largest_edge_tilt;
@@ -92,6 +104,9 @@ struct ScanMatcher::Impl {
   SolverOptions options;
   FitLimits plane_limits;
   FitLimits edge_limits;
+  double ring_bias_sigma_m;
+  Pose body_from_lidar;
+  SharedErrors shared;
   VoxelMap edges;
   VoxelMap planes;
 };
@@ -119,6 +134,46 @@ class MapConstraints {
     for (const LineMatch& m : line_matches_) add_line_rows(m.point_in_body, m.line, world_from_body, m.sigma_m, rows);
   }
 
+  /// What biases of the rings do to the solution, to first order: J^T of the rows times their change per metre of bias,
+  /// summed over each ring before squaring, since all of a ring err alike.
+  SharedErrors shared_errors(const SolveResult& solved, const Eigen::Vector3d& lidar_in_body, double ring_bias_sigma_m) {
+    const int n = solved.spectrum.well_conditioned;
+    if (n == 0) return {};
+    ResidualRows rows;
+    linearize(solved.pose, rows);
+    if (static_cast<int>(solved.weights.size()) != rows.feature_count()) return {};
+    std::map<int, Vector6d> gradient_of_ring;
+    double square_sum = 0.0;
+    static FILE* dbg = getenv("DBG") ? fopen(getenv("DBG"), "w") : nullptr;
+    for (int f = 0; f < rows.feature_count(); ++f) {
+      const auto at = static_cast<std::size_t>(f);
+      const bool is_plane = at < plane_matches_.size();
+      const std::size_t line = at - (is_plane ? 0 : plane_matches_.size());
+      const Eigen::Vector3d& point = is_plane ? plane_matches_[at].point_in_body : line_matches_[line].point_in_body;
+      const int ring = is_plane ? plane_matches_[at].ring : line_matches_[line].ring;
+      const Eigen::Vector3d beam = (point - lidar_in_body).normalized();
+      if (dbg) {
+        for (int r = rows.first_row(f); r < rows.end_row(f); ++r)
+          fprintf(dbg, "%d %g %g %g %g %g %g %g %d\n", is_plane, point.x(), point.y(), point.z(), rows.jacobian(r)[3], rows.jacobian(r).norm(), rows.residual(r), solved.weights[at], ring);
+      }
+      square_sum += (point - lidar_in_body).squaredNorm();
+      Vector6d& gradient = gradient_of_ring.try_emplace(ring, Vector6d::Zero()).first->second;
+      // The rows' own derivative by the position tells what moving the point along the beam does.
+      for (int r = rows.first_row(f); r < rows.end_row(f); ++r) {
+        gradient += solved.weights[at] * rows.jacobian(r).tail<3>().dot(beam) * rows.jacobian(r);
+      }
+    }
+    Matrix6d scatter = Matrix6d::Zero();
+    for (const auto& [ring, gradient] : gradient_of_ring) scatter += gradient * gradient.transpose();
+    const Eigen::MatrixXd basis = solved.spectrum.eigenvectors.rightCols(n);
+    const Eigen::MatrixXd solve = basis * (basis.transpose() * solved.information * basis).ldlt().solve(basis.transpose());
+    SharedErrors errors;
+    errors.covariance = ring_bias_sigma_m * ring_bias_sigma_m * solve * scatter * solve.transpose();
+    errors.reach_m = std::sqrt(square_sum / rows.feature_count());
+    if (!errors.covariance.allFinite()) return {};
+    return errors;
+  }
+
  private:
   bool moved_far(const Pose& pose) const {
     const Vector6d moved = searched_at_.local(pose);
@@ -139,7 +194,7 @@ class MapConstraints {
     const Eigen::Vector3d normal = world_from_body.rotation * feature.normal.cast<double>();
     NearestSamples nearest(kPlaneNeighbours, reach_of(feature), normal.cast<float>());
     planes_.nearest(world_from_body * point, reach_of(feature), nearest);
-    if (const auto plane = fit_plane(nearest, plane_limits_)) plane_matches_.push_back({point, *plane});
+    if (const auto plane = fit_plane(nearest, plane_limits_)) plane_matches_.push_back({point, *plane, feature.ring});
   }
 
   void match_line(const FeaturePoint& feature, const Pose& world_from_body) {
@@ -147,7 +202,9 @@ class MapConstraints {
     NearestSamples nearest(kLineNeighbours, reach_of(feature), Eigen::Vector3f::Zero());
     edges_.nearest(world_from_body * point, reach_of(feature), nearest);
     const auto line = fit_line(nearest, edge_limits_);
-    if (line) line_matches_.push_back({point, *line, std::hypot(sigma_m_, static_cast<double>(feature.spread_m))});
+    if (!line) return;
+    const double sigma_m = std::hypot(sigma_m_, static_cast<double>(feature.spread_m));
+    line_matches_.push_back({point, *line, sigma_m, feature.ring});
   }
 
   const VoxelMap& edges_;
@@ -177,10 +234,14 @@ SolveResult ScanMatcher::match(const FeatureCloud& features, const PosePrior& wo
   m.edges.prepare(in_world(used.edges, world_from_body.mean));
   m.planes.prepare(in_world(used.planes, world_from_body.mean));
   MapConstraints constraints(m.edges, m.planes, m.edge_limits, m.plane_limits, m.sigma_m, used);
-  return solve(
+  const SolveResult solved = solve(
       world_from_body.mean, world_from_body,
       [&](const Pose& pose, ResidualRows& rows) { constraints.linearize(pose, rows); }, m.options);
+  m.shared = constraints.shared_errors(solved, m.body_from_lidar.translation, m.ring_bias_sigma_m);
+  return solved;
 }
+
+const SharedErrors& ScanMatcher::shared_errors() const { return impl_->shared; }
 
 void ScanMatcher::insert(const FeatureCloud& features, const Pose& world_from_body, double path_m) {
   Impl& m = *impl_;

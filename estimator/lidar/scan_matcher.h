@@ -28,6 +28,13 @@ struct ScanMatcherConfig {
   double largest_edge_tilt = 0.05;   ///< [rad] one sigma of a fitted line's direction
 };
 
+/// What a match's own residuals cannot tell of its error.
+struct SharedErrors {
+  /// Of the matched pose, right perturbation: what a bias of each ring, half the data sheet's variance, does to it.
+  Matrix6d covariance = Matrix6d::Zero();
+  double reach_m = 0.0;  ///< root mean square distance of the matched features: moving so far renews them
+};
+
 /// Scan-to-map matching (thesis 5.3, eqs. 5.13-5.15): edge points to lines and planar points to planes of a voxel map.
 class ScanMatcher {
  public:
@@ -38,6 +45,9 @@ class ScanMatcher {
 
   /// Solves for world_from_body; starts at the prior's mean. With an empty map nothing is well-conditioned.
   SolveResult match(const FeatureCloud& features_in_body, const PosePrior& world_from_body);
+
+  /// Of the last match.
+  const SharedErrors& shared_errors() const;
 
   /// Merges a scan into the map at a pose and forgets what is older than memory_path_m.
   /// @param path_m  distance travelled so far by the estimate

@@ -7,10 +7,13 @@
 #include "estimator/lidar/deskew.h"
 #include "estimator/lidar/features.h"
 
+#include <cstdlib>
 namespace plumbline {
+double knob(const char* n, double d) { const char* v = getenv(n); return v ? atof(v) : d; }
 namespace {
 
 constexpr std::int64_t kTrackLength_ns = MessageGate::kLongestDelay_ns;
+constexpr std::int64_t kIncrementWindow_ns = 1'000'000'000;
 constexpr std::int64_t kMaxImuGap_ns = 500'000'000;
 
 // A solution's rows share errors that whitening does not know: features of one key-frame share its depth errors over
@@ -88,7 +91,9 @@ void Vloam::add(const ImuSample& received) {
     }
     advance_to(sample->stamp_ns, segment);
   }
+  watch_increments(sample->stamp_ns);
   outputs_.push_back(output(sample->stamp_ns));
+  outputs_.back().increment_covariance = seconds_between(previous.stamp_ns, sample->stamp_ns) * covariance_per_s_;
   outputs_.back().health = std::exchange(health_, {});
 }
 
@@ -97,6 +102,7 @@ void Vloam::start_with(const InitialState& start, const ImuSample& sample) {
   if (!config_.imu_enabled) initial.state.accel_bias = Eigen::Vector3d(0.0, 0.0, -kStandardGravity);
   filter_.emplace(initial, calibration_.imu, config_.remapping);
   track_.push(sample.stamp_ns, initial.state.world_from_body);
+  past_ns_ = sample.stamp_ns;
   gate_.start_at(sample.stamp_ns);
 }
 
@@ -162,14 +168,25 @@ void Vloam::handle(const LidarScan& scan) {
 
 void Vloam::refine_with_scan(const LidarScan& scan, const std::vector<Eigen::Vector3f>& points_in_body) {
   const FeatureCloud features = extract_features(scan, points_in_body, calibration_);
-  const Pose predicted = track_.at(scan.end_ns);
-  const SolveResult solved = matcher_.match(features, {predicted, filter_->pose_covariance()});
-  correct([&] { filter_->update_pose(solved, predicted, kLidarInflation); });
+  const Pose predicted = filter_->map_from_body();
+  const SolveResult solved = matcher_.match(features, {predicted, filter_->map_from_body_covariance()});
+  correct([&] { filter_->update_pose(solved, predicted, knob("LI", 25.0) * (knob("LS",0)>0 ? std::pow(std::max(knob("LS",0.0), solved.raw_scale/0.6745),2) : 1.0)); });
   const Pose world_from_body = track_.at(scan.end_ns);
-  path_m_ += (world_from_body.translation - last_scan_position_).norm();
+  const double step_m = (world_from_body.translation - last_scan_position_).norm();
+  path_m_ += step_m;
   last_scan_position_ = world_from_body.translation;
   matcher_.insert(features, world_from_body, path_m_);
+  renew_map(step_m, solved);
   report(scan.end_ns, Module::kLidar, solved, predicted, 0.0);
+}
+
+void Vloam::renew_map(double step_m, const SolveResult& solved) {
+  (void)solved;
+  if (std::exchange(has_map_, true) == false) return filter_->renew_map(1.0, Matrix6d::Zero());
+  const SharedErrors& shared = matcher_.shared_errors();
+  if (shared.reach_m <= 0.0) return;
+  const double share = std::min(1.0, knob("RN",1.0) * step_m / shared.reach_m);
+  filter_->renew_map(share, knob("MW",2.0) * share * shared.covariance);
 }
 
 template <typename Update>
@@ -193,6 +210,23 @@ void Vloam::report(std::int64_t stamp_ns, Module module, const SolveResult& solv
   health.correction = predicted.local(solved.pose);
   health.processing_s = seconds;
   health_.push_back(health);
+}
+
+/// The errors of successive steps share their causes, such as the velocity's error and the map's, so that the
+/// covariances of single steps could not be composed. Each step takes its share of the whole second's before it.
+void Vloam::watch_increments(std::int64_t stamp_ns) {
+  if (!filter_ || stamp_ns <= past_ns_) return;
+  const bool complete = stamp_ns - past_ns_ >= kIncrementWindow_ns;
+  if (!complete && knows_increments_) return;
+  // Seen from the middle of the window: composing shares from its two ends would count the lever arms twice.
+  const std::int64_t middle_ns = past_ns_ + (stamp_ns - past_ns_) / 2;
+  const Matrix6d carry = adjoint(track_.at(middle_ns).inverse() * filter_->state().world_from_body);
+  const double window_s = seconds_between(past_ns_, stamp_ns);
+  covariance_per_s_ = carry * filter_->past_motion_covariance() * carry.transpose() / window_s;
+  if (!complete) return;
+  knows_increments_ = true;
+  filter_->set_past();
+  past_ns_ = stamp_ns;
 }
 
 Odometry Vloam::output(std::int64_t stamp_ns) const {

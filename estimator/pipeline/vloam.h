@@ -38,11 +38,13 @@ class Vloam final : public Estimator {
   void handle(const CameraFrame& frame);
   void handle(const LidarScan& scan);
   void refine_with_scan(const LidarScan& scan, const std::vector<Eigen::Vector3f>& points_in_body);
+  void renew_map(double step_m, const SolveResult& solved);
   /// Lets an update act, and moves the recent track with it, so that the track's inner shape stays the IMU's.
   template <typename Update>
   void correct(Update&& update);
   void report(std::int64_t stamp_ns, Module module, const SolveResult& solved, const Pose& predicted, double seconds);
   Odometry output(std::int64_t stamp_ns) const;
+  void watch_increments(std::int64_t stamp_ns);
 
   Calibration calibration_;
   EstimatorConfig config_;
@@ -55,7 +57,12 @@ class Vloam final : public Estimator {
   ImuSample last_sample_;
   PoseTrack track_;  ///< world_from_body over the last sweep or so
   double path_m_ = 0.0;
+  bool has_map_ = false;
   Eigen::Vector3d last_scan_position_ = Eigen::Vector3d::Zero();
+
+  std::int64_t past_ns_ = 0;  ///< stamp of the filter's past pose
+  bool knows_increments_ = false;
+  Matrix6d covariance_per_s_ = Matrix6d::Zero();  ///< of the motion over the last second
 
   std::vector<Odometry> outputs_;
   std::vector<ModuleHealth> health_;
