@@ -13,6 +13,12 @@ namespace {
 
 // Real units err by more than their white noise (scale, misalignment, aliasing of vibration).
 constexpr double kDensityMargin = 1.5;
+// Scale and misalignment make a unit misread what it measures by so much, a gyroscope also by what pushes it: figures
+// of consumer and automotive MEMS. Between rest and motion these errors change, which a bias cannot follow; they last
+// as long as a swing or a turn does.
+constexpr double kShapeError = 2e-3;    // of the reading
+constexpr double kPushedRate = 1.7e-4;  // [rad/s per m/s^2]
+constexpr double kSwing_s = 0.2;
 
 double squared(double x) { return x * x; }
 
@@ -89,8 +95,10 @@ void InertialFilter::predict(const InertialSegment& segment) {
   const auto add_noise = [&](int block, double density) {
     moving.block<3, 3>(block, block).diagonal().array() += squared(density) * h;
   };
-  add_noise(kAttitude, kDensityMargin * noise_.gyro_density);
-  add_noise(kVelocity, kDensityMargin * noise_.accel_density);
+  const double push = (r * force + state_.gravity_in_world).norm();
+  const double misread_rate = kShapeError * rate.norm() + kPushedRate * push;
+  add_noise(kAttitude, std::hypot(kDensityMargin * noise_.gyro_density, std::sqrt(kSwing_s) * misread_rate));
+  add_noise(kVelocity, std::hypot(kDensityMargin * noise_.accel_density, std::sqrt(kSwing_s) * kShapeError * push));
   add_noise(kGyroBias, noise_.gyro_random_walk);
   add_noise(kAccelBias, noise_.accel_random_walk);
   symmetrize();

@@ -14,7 +14,8 @@ namespace plumbline {
 
 /// The map that scans are matched with was made of earlier scans at poses that erred, too. A match tells where the body
 /// is in that map, so it carries the map's error, which changes only as the map's content is renewed. Taken for an
-/// absolute fix scan by scan, ten a second, it would soon hold the attitude so firmly that gravity could not correct it.
+/// absolute fix scan by scan, ten a second, it would soon hold the attitude so firmly that gravity could not correct
+/// it.
 ///
 /// Error state: [attitude, position (both right perturbations in B), velocity in W, gyro bias, accel bias,
 /// gravity's x and y in W, the map's offset (attitude and position, seen from B), key-frame attitude and position, the

@@ -97,8 +97,8 @@ std::optional<MapPlane> fit_wide_plane(const Positions& points, const FitLimits&
   return MapPlane{normal, normal.dot(s.centroid)};
 }
 
-/// A surface as narrow as a cell or two (the side of a pillar) gives its neighbours no width to fit a plane to, but each
-/// of them brings the normal that the scans saw there.
+/// A surface as narrow as a cell or two (the side of a pillar) gives its neighbours no width to fit a plane to, but
+/// each of them brings the normal that the scans saw there.
 std::optional<MapPlane> fit_narrow_plane(const NearestSamples& neighbours, const FitLimits& limits) {
   Positions points;
   Eigen::Vector3d normal_sum = Eigen::Vector3d::Zero();

@@ -10,10 +10,7 @@
 #include "estimator/lidar/direction_sampling.h"
 #include "estimator/lidar/voxel_map.h"
 
-#include <cstdio>
-#include <cstdlib>
 namespace plumbline {
-double knob(const char* n, double d);
 namespace {
 
 // Two range errors meet in a residual, the scan's and the map's. Below two centimetres the map's own errors (cells that
@@ -25,6 +22,8 @@ constexpr double kLeastReach_m = 1.0;
 constexpr double kLargestReach_m = 1.5;
 constexpr double kReachPerRange = 0.07;
 
+constexpr double kLeastRange_m = 0.5;  // nearer features would let a beam turn without bound
+
 // Ten cells around a point of a wall span 0.8 m and average the noise of its normal; edges need a few more, since the
 // neighbours of one line mix with those of the next.
 constexpr int kPlaneNeighbours = 10;
@@ -35,8 +34,9 @@ constexpr int kLineNeighbours = 16;
 constexpr double kSearchAgain_m = 0.02;
 constexpr double kSearchAgain_rad = 0.003;
 
-// A data sheet's accuracy does not say how much of it averages out. Half its variance is taken for a bias of each ring.
-constexpr double kBiasShare = 0.7071;
+// A data sheet's accuracy does not say how much of it averages out. A quarter of its variance is taken for a bias that
+// all returns share, a quarter for one of each ring.
+constexpr double kBiasShare = 0.5;
 
 struct PlaneMatch {
   Eigen::Vector3d point_in_body;
@@ -83,6 +83,8 @@ struct ScanMatcher::Impl {
   Impl(const Calibration& calibration, const ScanMatcherConfig& settings, bool remap)
       : config(settings),
         sigma_m(std::max(kLeastSigma_m, std::sqrt(2.0) * calibration.lidar_range_sigma_m)),
+        bias_sigma_m(kBiasShare * calibration.lidar_range_sigma_m),
+        body_from_lidar(calibration.body_from_lidar),
         edges(settings.coarse_voxel_m, settings.edge_resolution_m),
         planes(settings.coarse_voxel_m, settings.plane_resolution_m) {
     options.max_iterations = settings.max_iterations;
@@ -91,8 +93,6 @@ struct ScanMatcher::Impl {
     options.degeneracy_threshold = settings.degeneracy_threshold;
     options.remapping = remap;
     options.min_features = settings.least_features;
-    ring_bias_sigma_m = kBiasShare * calibration.lidar_range_sigma_m;
-    body_from_lidar = calibration.body_from_lidar;
     edge_limits.largest_residual_m = 0.03;
     plane_limits.map_sigma_m = edge_limits.map_sigma_m = 0.5 * calibration.lidar_range_sigma_m;
     edge_limits.largest_tilt_sigma = settings.largest_edge_tilt;
@@ -101,12 +101,12 @@ struct ScanMatcher::Impl {
 
   ScanMatcherConfig config;
   double sigma_m;
+  double bias_sigma_m;
+  Pose body_from_lidar;
   SolverOptions options;
   FitLimits plane_limits;
   FitLimits edge_limits;
-  double ring_bias_sigma_m;
-  Pose body_from_lidar;
-  SharedErrors shared;
+  MatchDrift drift;
   VoxelMap edges;
   VoxelMap planes;
 };
@@ -134,47 +134,52 @@ class MapConstraints {
     for (const LineMatch& m : line_matches_) add_line_rows(m.point_in_body, m.line, world_from_body, m.sigma_m, rows);
   }
 
-  /// What biases of the rings do to the solution, to first order: J^T of the rows times their change per metre of bias,
-  /// summed over each ring before squaring, since all of a ring err alike.
-  SharedErrors shared_errors(const SolveResult& solved, const Eigen::Vector3d& lidar_in_body, double ring_bias_sigma_m) {
-    const int n = solved.spectrum.well_conditioned;
-    if (n == 0) return {};
+  /// To first order: J^T of the rows times their change per metre of motion and bias, summed over each ring, since all
+  /// of a ring err alike, and over all.
+  MatchDrift drift(const SolveResult& solved, const Eigen::Vector3d& lidar_in_body, double bias_sigma_m) {
     ResidualRows rows;
     linearize(solved.pose, rows);
-    if (static_cast<int>(solved.weights.size()) != rows.feature_count()) return {};
-    std::map<int, Vector6d> gradient_of_ring;
+    const int n = solved.spectrum.well_conditioned;
+    if (n == 0 || static_cast<int>(solved.weights.size()) != rows.feature_count()) return {};
+    using Gain = Eigen::Matrix<double, 6, 3>;
+    std::map<int, Gain> gain_of_ring;
     double square_sum = 0.0;
-    static FILE* dbg = getenv("DBG") ? fopen(getenv("DBG"), "w") : nullptr;
     for (int f = 0; f < rows.feature_count(); ++f) {
-      const auto at = static_cast<std::size_t>(f);
-      const bool is_plane = at < plane_matches_.size();
-      const std::size_t line = at - (is_plane ? 0 : plane_matches_.size());
-      const Eigen::Vector3d& point = is_plane ? plane_matches_[at].point_in_body : line_matches_[line].point_in_body;
-      const int ring = is_plane ? plane_matches_[at].ring : line_matches_[line].ring;
-      const Eigen::Vector3d beam = (point - lidar_in_body).normalized();
-      if (dbg) {
-        for (int r = rows.first_row(f); r < rows.end_row(f); ++r)
-          fprintf(dbg, "%d %g %g %g %g %g %g %g %d\n", is_plane, point.x(), point.y(), point.z(), rows.jacobian(r)[3], rows.jacobian(r).norm(), rows.residual(r), solved.weights[at], ring);
-      }
-      square_sum += (point - lidar_in_body).squaredNorm();
-      Vector6d& gradient = gradient_of_ring.try_emplace(ring, Vector6d::Zero()).first->second;
-      // The rows' own derivative by the position tells what moving the point along the beam does.
+      const auto [point, ring] = feature(static_cast<std::size_t>(f));
+      const double range = std::max((point - lidar_in_body).norm(), kLeastRange_m);
+      const Eigen::Vector3d beam = (point - lidar_in_body) / range;
+      square_sum += range * range;
+      Gain& gain = gain_of_ring.try_emplace(ring, Gain::Zero()).first->second;
+      const Eigen::Matrix3d beam_turns = (Eigen::Matrix3d::Identity() - beam * beam.transpose()) / range;
+      const double weight = solved.weights[static_cast<std::size_t>(f)];
+      // A row's derivative by the position is its derivative by the feature's.
       for (int r = rows.first_row(f); r < rows.end_row(f); ++r) {
-        gradient += solved.weights[at] * rows.jacobian(r).tail<3>().dot(beam) * rows.jacobian(r);
+        gain += weight * rows.jacobian(r) * (rows.jacobian(r).tail<3>().transpose() * beam_turns);
       }
     }
-    Matrix6d scatter = Matrix6d::Zero();
-    for (const auto& [ring, gradient] : gradient_of_ring) scatter += gradient * gradient.transpose();
     const Eigen::MatrixXd basis = solved.spectrum.eigenvectors.rightCols(n);
-    const Eigen::MatrixXd solve = basis * (basis.transpose() * solved.information * basis).ldlt().solve(basis.transpose());
-    SharedErrors errors;
-    errors.covariance = ring_bias_sigma_m * ring_bias_sigma_m * solve * scatter * solve.transpose();
-    errors.reach_m = std::sqrt(square_sum / rows.feature_count());
-    if (!errors.covariance.allFinite()) return {};
-    return errors;
+    const Matrix6d pose_of_gradient =
+        basis * (basis.transpose() * solved.information * basis).ldlt().solve(Eigen::MatrixXd(basis.transpose()));
+    if (!pose_of_gradient.allFinite()) return {};
+    MatchDrift drift;
+    drift.reach_m = std::sqrt(square_sum / rows.feature_count());
+    Gain of_all = Gain::Zero();
+    for (const auto& [ring, gain] : gain_of_ring) {
+      drift.per_metre.push_back(bias_sigma_m * pose_of_gradient * gain);
+      of_all += drift.per_metre.back();
+    }
+    drift.per_metre.push_back(of_all);
+    return drift;
   }
 
  private:
+  /// In the order of the rows.
+  std::pair<Eigen::Vector3d, int> feature(std::size_t at) const {
+    if (at < plane_matches_.size()) return {plane_matches_[at].point_in_body, plane_matches_[at].ring};
+    const LineMatch& line = line_matches_[at - plane_matches_.size()];
+    return {line.point_in_body, line.ring};
+  }
+
   bool moved_far(const Pose& pose) const {
     const Vector6d moved = searched_at_.local(pose);
     return moved.head<3>().norm() > kSearchAgain_rad || moved.tail<3>().norm() > kSearchAgain_m;
@@ -237,11 +242,22 @@ SolveResult ScanMatcher::match(const FeatureCloud& features, const PosePrior& wo
   const SolveResult solved = solve(
       world_from_body.mean, world_from_body,
       [&](const Pose& pose, ResidualRows& rows) { constraints.linearize(pose, rows); }, m.options);
-  m.shared = constraints.shared_errors(solved, m.body_from_lidar.translation, m.ring_bias_sigma_m);
+  m.drift = constraints.drift(solved, m.body_from_lidar.translation, m.bias_sigma_m);
   return solved;
 }
 
-const SharedErrors& ScanMatcher::shared_errors() const { return impl_->shared; }
+const MatchDrift& ScanMatcher::drift() const { return impl_->drift; }
+
+Matrix6d MatchDrift::covariance(const Eigen::Vector3d& step_in_body) const {
+  const double step_m = step_in_body.norm();
+  Matrix6d sum = Matrix6d::Zero();
+  if (step_m <= 0.0) return sum;
+  for (const Eigen::Matrix<double, 6, 3>& d : per_metre) {
+    const Vector6d drift = d * step_in_body;
+    sum += std::max(1.0, reach_m / step_m) * drift * drift.transpose();
+  }
+  return sum;
+}
 
 void ScanMatcher::insert(const FeatureCloud& features, const Pose& world_from_body, double path_m) {
   Impl& m = *impl_;

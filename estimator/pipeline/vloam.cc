@@ -7,9 +7,7 @@
 #include "estimator/lidar/deskew.h"
 #include "estimator/lidar/features.h"
 
-#include <cstdlib>
 namespace plumbline {
-double knob(const char* n, double d) { const char* v = getenv(n); return v ? atof(v) : d; }
 namespace {
 
 constexpr std::int64_t kTrackLength_ns = MessageGate::kLongestDelay_ns;
@@ -17,9 +15,9 @@ constexpr std::int64_t kIncrementWindow_ns = 1'000'000'000;
 constexpr std::int64_t kMaxImuGap_ns = 500'000'000;
 
 // A solution's rows share errors that whitening does not know: features of one key-frame share its depth errors over
-// dozens of frames, points of neighbouring scans share the map's.
+// dozens of frames. Those of scan matching are the map's (see InertialFilter and MatchDrift).
 constexpr double kVisionInflation = 25.0;
-constexpr double kLidarInflation = 25.0;
+constexpr double kLidarInflation = 1.0;
 
 // The estimator stops believing its position when the filter's own standard deviation exceeds this [m].
 constexpr double kLostSigma_m = 10.0;
@@ -93,7 +91,7 @@ void Vloam::add(const ImuSample& received) {
   }
   watch_increments(sample->stamp_ns);
   outputs_.push_back(output(sample->stamp_ns));
-  outputs_.back().increment_covariance = seconds_between(previous.stamp_ns, sample->stamp_ns) * covariance_per_s_;
+  outputs_.back().increment_covariance = increment_covariance(seconds_between(previous.stamp_ns, sample->stamp_ns));
   outputs_.back().health = std::exchange(health_, {});
 }
 
@@ -170,23 +168,21 @@ void Vloam::refine_with_scan(const LidarScan& scan, const std::vector<Eigen::Vec
   const FeatureCloud features = extract_features(scan, points_in_body, calibration_);
   const Pose predicted = filter_->map_from_body();
   const SolveResult solved = matcher_.match(features, {predicted, filter_->map_from_body_covariance()});
-  correct([&] { filter_->update_pose(solved, predicted, knob("LI", 25.0) * (knob("LS",0)>0 ? std::pow(std::max(knob("LS",0.0), solved.raw_scale/0.6745),2) : 1.0)); });
+  correct([&] { filter_->update_pose(solved, predicted, kLidarInflation); });
   const Pose world_from_body = track_.at(scan.end_ns);
-  const double step_m = (world_from_body.translation - last_scan_position_).norm();
-  path_m_ += step_m;
+  const Eigen::Vector3d step_in_world = world_from_body.translation - last_scan_position_;
+  path_m_ += step_in_world.norm();
   last_scan_position_ = world_from_body.translation;
   matcher_.insert(features, world_from_body, path_m_);
-  renew_map(step_m, solved);
+  renew_map(world_from_body.rotation.conjugate() * step_in_world);
   report(scan.end_ns, Module::kLidar, solved, predicted, 0.0);
 }
 
-void Vloam::renew_map(double step_m, const SolveResult& solved) {
-  (void)solved;
-  if (std::exchange(has_map_, true) == false) return filter_->renew_map(1.0, Matrix6d::Zero());
-  const SharedErrors& shared = matcher_.shared_errors();
-  if (shared.reach_m <= 0.0) return;
-  const double share = std::min(1.0, knob("RN",1.0) * step_m / shared.reach_m);
-  filter_->renew_map(share, knob("MW",2.0) * share * shared.covariance);
+void Vloam::renew_map(const Eigen::Vector3d& step_in_body) {
+  if (!std::exchange(has_map_, true)) return filter_->renew_map(1.0, Matrix6d::Zero());
+  const MatchDrift& drift = matcher_.drift();
+  if (drift.reach_m <= 0.0) return;
+  filter_->renew_map(std::min(1.0, step_in_body.norm() / drift.reach_m), drift.covariance(step_in_body));
 }
 
 template <typename Update>
@@ -227,6 +223,10 @@ void Vloam::watch_increments(std::int64_t stamp_ns) {
   knows_increments_ = true;
   filter_->set_past();
   past_ns_ = stamp_ns;
+}
+
+Matrix6d Vloam::increment_covariance(double interval_s) const {
+  return filter_ ? Matrix6d(interval_s * covariance_per_s_) : initializer_.increment_covariance();
 }
 
 Odometry Vloam::output(std::int64_t stamp_ns) const {

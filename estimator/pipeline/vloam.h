@@ -38,13 +38,14 @@ class Vloam final : public Estimator {
   void handle(const CameraFrame& frame);
   void handle(const LidarScan& scan);
   void refine_with_scan(const LidarScan& scan, const std::vector<Eigen::Vector3f>& points_in_body);
-  void renew_map(double step_m, const SolveResult& solved);
+  void renew_map(const Eigen::Vector3d& step_in_body);
   /// Lets an update act, and moves the recent track with it, so that the track's inner shape stays the IMU's.
   template <typename Update>
   void correct(Update&& update);
   void report(std::int64_t stamp_ns, Module module, const SolveResult& solved, const Pose& predicted, double seconds);
   Odometry output(std::int64_t stamp_ns) const;
   void watch_increments(std::int64_t stamp_ns);
+  Matrix6d increment_covariance(double interval_s) const;
 
   Calibration calibration_;
   EstimatorConfig config_;

@@ -173,7 +173,6 @@ class RobustSolve {
     result_.inliers = 0;
     result_.weights.assign(static_cast<std::size_t>(result_.features), 0.0);
     if (!all_finite(rows_)) return;
-    result_.raw_scale = robust_scale(rows_, 0.0, scratch_);
     result_.scale = robust_scale(rows_, options_.scale_floor, scratch_);
     bisquare_weights(rows_, result_.scale, result_.weights);
     result_.inliers = static_cast<int>(

@@ -65,7 +65,6 @@ struct SolveResult {
   int inliers = 0;              ///< with a weight above zero
   std::vector<double> weights;  ///< per feature, in [0, 1]
   double scale = 0.0;           ///< MAD of the whitened residuals, floored
-  double raw_scale = 0.0;
   int iterations = 0;
   bool converged = false;
 };
