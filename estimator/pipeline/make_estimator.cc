@@ -37,6 +37,7 @@ const std::vector<EstimatorInfo>& estimator_library() {
       {"vloam", "IMU prediction, visual odometry with lidar depth, scan matching (V-LOAM)"},
       {"vio", "IMU prediction and visual odometry with lidar depth; scan matching off"},
       {"imu_lidar", "IMU prediction and scan matching; vision off"},
+      {"joint", "IMU prediction, and one problem of lidar and camera rows at every scan"},
       {"imu", "dead reckoning"},
       {"loam", "lidar odometry within each sweep and mapping once a sweep, with or without the IMU (LOAM)"},
       {"loam_imu_orientation", "the same with the attitude as the gyro integrates it; only translation is estimated"},
@@ -56,7 +57,8 @@ std::unique_ptr<Estimator> make_vloam(const std::string& name, const Calibration
   EstimatorConfig chosen = config;
   if (name == "vio" || name == "imu") chosen.lidar_enabled = false;
   if (name == "imu_lidar" || name == "imu") chosen.vision_enabled = false;
-  return std::make_unique<Vloam>(calibration, chosen);
+  const Coupling coupling = name == "joint" ? Coupling::kJoint : Coupling::kSequential;
+  return std::make_unique<Vloam>(calibration, chosen, VisionConfig{}, ScanMatcherConfig{}, coupling);
 }
 
 std::unique_ptr<Estimator> make_demo(const std::string& name, const Calibration& calibration,
