@@ -75,6 +75,7 @@ struct RigConfig {
   int decimation = 1;    ///< 2 drops every other message of all sensors
   bool own_body = true;  ///< sensors see the vehicle that carries them
   Pose vehicle_from_pack;
+  bool has_lidar = true;
   Pose pack_from_lidar;
   LidarModel lidar;
   MountedCamera camera;                            ///< the estimator's: camera 0

@@ -57,6 +57,12 @@ class ReadAhead {
   std::thread thread_;
 };
 
+/// The lidar's scans; nothing, ever, where the rig has none.
+MessageSource scans_of(const Scenario& scenario, const Surroundings& surroundings, const Trajectory& world_from_body) {
+  if (!scenario.rig.has_lidar) return [] { return std::unique_ptr<SensorMessage>(); };
+  return source_of(std::make_shared<ScanStream>(scenario, surroundings, world_from_body));
+}
+
 MessageSource linked(MessageSource source, FaultySensor sensor, const Scenario& scenario) {
   return source_of(std::make_shared<SensorLink>(std::move(source), sensor, scenario));
 }
@@ -84,7 +90,7 @@ MessageSource make_source(const Scenario& scenario, const Surroundings& surround
                           const Trajectory& world_from_body) {
   return all_sensors(scenario, world_from_body,
                      source_of(std::make_shared<FrameStream>(scenario, surroundings, world_from_body, 0)),
-                     source_of(std::make_shared<ScanStream>(scenario, surroundings, world_from_body)));
+                     scans_of(scenario, surroundings, world_from_body));
 }
 
 MessageSource make_read_ahead_source(const Scenario& scenario, const Surroundings& surroundings,
@@ -92,7 +98,7 @@ MessageSource make_read_ahead_source(const Scenario& scenario, const Surrounding
   const auto frames = [&] {
     return source_of(std::make_shared<FrameStream>(scenario, surroundings, world_from_body, kRendererThreads));
   };
-  const auto scans = [&] { return source_of(std::make_shared<ScanStream>(scenario, surroundings, world_from_body)); };
+  const auto scans = [&] { return scans_of(scenario, surroundings, world_from_body); };
   return all_sensors(scenario, world_from_body, source_of(std::make_shared<ReadAhead>(frames)),
                      source_of(std::make_shared<ReadAhead>(scans)));
 }

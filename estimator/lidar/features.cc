@@ -328,4 +328,16 @@ FeatureCloud extract_features(const LidarScan& scan, const std::vector<Eigen::Ve
   return {extraction.edges(), extraction.planes()};
 }
 
+void move(FeatureCloud& features, const Pose& target_from_source, float later_s) {
+  const Eigen::Matrix3f rotation = target_from_source.rotation.toRotationMatrix().cast<float>();
+  const Eigen::Vector3f translation = target_from_source.translation.cast<float>();
+  for (std::vector<FeaturePoint>* kind : {&features.edges, &features.planes}) {
+    for (FeaturePoint& f : *kind) {
+      f.position = rotation * f.position + translation;
+      f.normal = rotation * f.normal;
+      f.offset_s += later_s;
+    }
+  }
+}
+
 }  // namespace plumbline

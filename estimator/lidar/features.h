@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "estimator/geometry/pose.h"
 #include "estimator/messages.h"
 
 namespace plumbline {
@@ -20,6 +21,9 @@ struct FeatureCloud {
   std::vector<FeaturePoint> edges;
   std::vector<FeaturePoint> planes;
 };
+
+/// Carries features over to another frame, and their times to a stamp that is earlier by later_s.
+void move(FeatureCloud& features, const Pose& target_from_source, float later_s);
 
 /// Curvature-based extraction per ring with all rejection rules: taken neighbours, occlusion edges, grazing surfaces.
 /// Planes are dense but evenly spread: the mean of the planar points of each small cell of space.

@@ -1,5 +1,6 @@
 #include "estimator/lidar/sweep_assembler.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace plumbline {
@@ -21,6 +22,12 @@ std::optional<LidarScan> SweepAssembler::add(const LidarScan& part) {
   }
   if (!part.ends_sweep) return std::nullopt;
   return std::exchange(sweep_, std::nullopt);
+}
+
+std::int64_t newest_return_ns(const LidarScan& scan) {
+  std::int32_t newest_ns = 0;
+  for (const LidarPoint& point : scan.points) newest_ns = std::max(newest_ns, point.offset_ns);
+  return std::min(scan.stamp_ns + newest_ns, scan.end_ns);
 }
 
 }  // namespace plumbline

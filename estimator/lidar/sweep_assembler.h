@@ -20,4 +20,7 @@ class SweepAssembler {
   std::optional<LidarScan> sweep_;  ///< so far
 };
 
+/// The time up to which a scan has returns.
+std::int64_t newest_return_ns(const LidarScan& scan);
+
 }  // namespace plumbline

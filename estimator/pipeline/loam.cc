@@ -33,22 +33,6 @@ MessageUse use_of(ImuUse imu) {
   return use;
 }
 
-std::int64_t newest_return_ns(const LidarScan& scan) {
-  std::int32_t newest_ns = 0;
-  for (const LidarPoint& point : scan.points) newest_ns = std::max(newest_ns, point.offset_ns);
-  return std::min(scan.stamp_ns + newest_ns, scan.end_ns);
-}
-
-void move(std::vector<FeaturePoint>& features, const Pose& target_from_source, float later_s) {
-  const Eigen::Matrix3f rotation = target_from_source.rotation.toRotationMatrix().cast<float>();
-  const Eigen::Vector3f translation = target_from_source.translation.cast<float>();
-  for (FeaturePoint& f : features) {
-    f.position = rotation * f.position + translation;
-    f.normal = rotation * f.normal;
-    f.offset_s += later_s;
-  }
-}
-
 }  // namespace
 
 Loam::Loam(const Calibration& calibration, const EstimatorConfig& config, ImuUse imu)
@@ -137,8 +121,7 @@ void Loam::follow(const LidarScan& part, std::int64_t now_ns) {
   FeatureCloud features = features_of(part, track_, now_ns);
   const Pose predicted = predicted_motion(now_ns);
   const auto later_s = static_cast<float>(seconds_between(odometry_.reference_ns(), part.stamp_ns));
-  move(features.edges, predicted, later_s);
-  move(features.planes, predicted, later_s);
+  move(features, predicted, later_s);
   odometry_.add(features);
   motion_ = odometry_.solve(now_ns, {predicted, motion_covariance(now_ns)}, std::nullopt, effort());
   followed_ns_ = now_ns;
@@ -212,8 +195,7 @@ void Loam::take_pose(const SolveResult& solved, const Pose& predicted) {
 /// @param last_sweep  in B at its end
 void Loam::begin_sweep(FeatureCloud last_sweep, std::int64_t middle_ns, std::int64_t end_ns,
                        const Pose& middle_from_end) {
-  move(last_sweep.edges, middle_from_end, 0.0F);
-  move(last_sweep.planes, middle_from_end, 0.0F);
+  move(last_sweep, middle_from_end, 0.0F);
   odometry_.begin(last_sweep, middle_ns);
   last_end_ns_ = end_ns;
   reference_from_last_end_ = middle_from_end;

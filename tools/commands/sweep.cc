@@ -12,6 +12,7 @@
 #include "tools/interrupt.h"
 #include "tools/progress_line.h"
 #include "tools/study/shrink.h"
+#include "tools/study/slurm_array.h"
 #include "tools/study/slurm_launcher.h"
 #include "tools/study/sweep_outputs.h"
 #include "tools/study/sweep_runner.h"
@@ -86,6 +87,7 @@ void check(const SweepArguments& arguments) {
   if (arguments.launcher != kSlurm) return;
   if (!arguments.shard.empty()) throw InputError("--shard: found beside --launcher slurm, which makes its own shards");
   if (!arguments.shrink.empty()) throw InputError("--shrink: found beside --launcher slurm, allowed is local");
+  require_slurm();
 }
 
 }  // namespace

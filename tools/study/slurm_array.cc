@@ -60,6 +60,11 @@ std::string index_ranges(const std::vector<std::size_t>& indices) {
   return text;
 }
 
+void require_slurm() {
+  const ChildEnd end = run_command({"sbatch", "--version"});
+  if (!succeeded(end)) fail("sbatch", end);
+}
+
 std::string submit(const SlurmArray& array) {
   const ChildEnd end = run_command(
       {"sbatch", "--parsable", "--job-name=" + array.name, "--array=" + index_ranges(array.indices), "--ntasks=1",

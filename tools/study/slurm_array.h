@@ -17,8 +17,11 @@ struct SlurmArray {
   std::filesystem::path log_pattern;  ///< %a stands for the index
 };
 
+/// @throws InputError if Slurm's commands cannot be executed here
+void require_slurm();
+
 /// @returns the job's id
-/// @throws InputError if there is no sbatch, or with its words if it refuses
+/// @throws InputError with sbatch's words if it refuses
 std::string submit(const SlurmArray& array);
 
 /// Whether any task of a job waits or runs. A controller that does not answer is asked again for some minutes.

@@ -62,10 +62,14 @@ class Cluster {
     wait_until([] { return std::system("sinfo --noheader --states=idle 2>/dev/null | grep -q idle") == 0; }, "slurmd");
   }
   ~Cluster() {
-    // What still runs belongs to slurmd's step daemons, which end with their jobs.
+    // In an orderly way, so that helpers of theirs end too. Whatever is left after that is killed, munged last.
     [[maybe_unused]] const int status =
-        std::system("scancel --user=$(id -un) >/dev/null 2>&1; sleep 0.5; scontrol shutdown >/dev/null 2>&1");
-    // The controller before its node, and munged last.
+        std::system("scancel --user=$(id -un) >/dev/null 2>&1; scontrol shutdown >/dev/null 2>&1");
+    const auto has_ended = [](ChildProcess& process) { return process.poll().has_value(); };
+    for (int i = 0; i < 50 && daemons_.size() > 1; ++i) {
+      daemons_.remove_if(has_ended);
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
     while (!daemons_.empty()) daemons_.pop_back();
     unsetenv("SLURM_CONF");
   }
@@ -83,7 +87,7 @@ class Cluster {
         << "SelectType=select/cons_tres\nSelectTypeParameters=CR_CPU\n"
         << "SwitchType=switch/none\nMpiDefault=none\nJobAcctGatherType=jobacct_gather/none\n"
         << "AccountingStorageType=accounting_storage/none\nReturnToService=2\n"
-        << "SlurmUser=#" << getuid() << "\nSlurmdUser=#" << getuid() << "\n"
+        << "SlurmUser=" << getuid() << "\nSlurmdUser=" << getuid() << "\n"
         << "SlurmctldPort=" << free_port() << "\nSlurmdPort=" << free_port() << "\n"
         << "StateSaveLocation=" << at << "/state\nSlurmdSpoolDir=" << at << "/spool\n"
         << "SlurmctldPidFile=" << at << "/slurmctld.pid\nSlurmdPidFile=" << at << "/slurmd.pid\n"
@@ -118,9 +122,10 @@ class SlurmLauncher : public ::testing::Test {
     directory_.write("sweep.yaml", "scenario: base.yaml\nestimators: [exec:/bin/false, imu]\n");
   }
 
-  int call(const std::string& arguments) const {
-    const std::string command =
-        "cd '" + directory_.path().string() + "' && " PLUMBLINE_PROGRAM " " + arguments + " >said.txt 2>&1";
+  /// @param variable  "PATH=..." for the program alone
+  int call(const std::string& arguments, const std::string& variable = "") const {
+    const std::string command = "cd '" + directory_.path().string() + "' && " + variable + " " PLUMBLINE_PROGRAM " " +
+                                arguments + " >said.txt 2>&1";
     return WEXITSTATUS(std::system(command.c_str()));
   }
   std::string content(const std::string& name) const {
@@ -150,6 +155,7 @@ TEST_F(SlurmLauncher, AJobArrayMakesTheTableThatWeMakeHere) {
 
 /// Slurm as this test has it: submits by running the tasks one after the other, of which the second fails at first.
 constexpr const char* kSbatch = R"sh(#!/bin/sh
+[ "$1" = --version ] && exit 0
 case "$*" in *--array=1-2*) tasks="1 2" ;; *--array=2*) tasks="2" ;; *) echo "sbatch: error: unexpected: $*" >&2; exit 1 ;; esac
 echo "sbatch: a word of the site's" >&2
 echo "$*" >> submitted.txt
@@ -169,17 +175,11 @@ TEST_F(SlurmLauncher, WhatATaskLeftUndoneIsSaidAndResumed) {
     fs::permissions(directory_.write(name, text), fs::perms::owner_all);
   }
   directory_.write("sweep.yaml", "scenario: base.yaml\nestimators: [exec:/bin/false]\nseeds: 2\n");
-  const std::string path = "PATH='" + directory_.path().string() + "/bin':$PATH ";
-  const auto sweep = [&](const std::string& rest) {
-    const std::string command = "cd '" + directory_.path().string() + "' && " + path +
-                                PLUMBLINE_PROGRAM " sweep sweep.yaml --launcher slurm --out out " + rest +
-                                " >said.txt 2>&1";
-    return WEXITSTATUS(std::system(command.c_str()));
-  };
-  EXPECT_EQ(sweep(""), 3);
+  const std::string path = "PATH='" + directory_.path().string() + "/bin':$PATH";
+  EXPECT_EQ(call("sweep sweep.yaml --launcher slurm --out out", path), 3);
   EXPECT_THAT(content("said.txt"), HasSubstr("not all tasks of job 77 did their work"));
   EXPECT_THAT(content("said.txt"), HasSubstr("1 of 2 runs made"));
-  EXPECT_EQ(sweep("--resume"), 0) << content("said.txt");
+  EXPECT_EQ(call("sweep sweep.yaml --launcher slurm --out out --resume", path), 0) << content("said.txt");
   EXPECT_THAT(content("submitted.txt"), HasSubstr("--array=2 ")) << "only what was missing";
   EXPECT_THAT(content("said.txt"), HasSubstr("2 of 2 runs made"));
 }
@@ -188,6 +188,8 @@ TEST_F(SlurmLauncher, WithoutSlurmItSaysSo) {
   EXPECT_EQ(call("sweep sweep.yaml --out a --launcher pbs"), 2);
   EXPECT_EQ(call("sweep sweep.yaml --out a --launcher slurm --shard 1/2"), 2);
   EXPECT_THAT(content("said.txt"), HasSubstr("makes its own shards"));
+  EXPECT_EQ(call("sweep sweep.yaml --out a --launcher slurm", "PATH=/nowhere"), 2);
+  EXPECT_THAT(content("said.txt"), HasSubstr("sbatch failed: the program cannot be executed"));
   EXPECT_FALSE(fs::exists(directory_.path() / "a"));
 }
 

@@ -1,4 +1,4 @@
-#include "tools/thesis/suite_runs.h"
+#include "tools/thesis/runs.h"
 
 #include <cstdlib>
 
@@ -23,14 +23,14 @@ std::string cost_name(const Experiment& experiment) { return "cost_s/" + experim
 
 }  // namespace
 
-SuiteRuns::SuiteRuns(const fs::path& root) : root_(made(root)), lock_(root_), store_(root_ / "suite.sqlite") {
+ThesisRuns::ThesisRuns(const fs::path& root) : root_(made(root)), lock_(root_), store_(root_ / "thesis.sqlite") {
   for (StoredRun& run : store_.runs()) {
     // A time limit says more about the machine's other work than about the run: it gets another chance.
     if (run.outcome != "time_limit") runs_.emplace(run.key, std::move(run));
   }
 }
 
-std::vector<std::vector<std::optional<RunRow>>> SuiteRuns::of(const SuiteRow& row) const {
+std::vector<std::vector<std::optional<RunRow>>> ThesisRuns::of(const ThesisRow& row) const {
   std::vector<std::vector<std::optional<RunRow>>> rows(row.experiment.configurations.size());
   for (std::size_t c = 0; c < rows.size(); ++c) {
     rows[c].resize(row.experiment.seeds.size());
@@ -42,8 +42,8 @@ std::vector<std::vector<std::optional<RunRow>>> SuiteRuns::of(const SuiteRow& ro
   return rows;
 }
 
-std::vector<const SuiteRun*> SuiteRuns::missing(const SuiteRow& row) const {
-  std::vector<const SuiteRun*> missing;
+std::vector<const ThesisRun*> ThesisRuns::missing(const ThesisRow& row) const {
+  std::vector<const ThesisRun*> missing;
   for (std::size_t s = 0; s < row.experiment.seeds.size(); ++s) {
     for (const auto& of_configuration : row.runs) {
       if (s < of_configuration.size() && !has(of_configuration[s])) missing.push_back(&of_configuration[s]);
@@ -52,18 +52,18 @@ std::vector<const SuiteRun*> SuiteRuns::missing(const SuiteRow& row) const {
   return missing;
 }
 
-void SuiteRuns::add(const StoredRun& run) {
+void ThesisRuns::add(const StoredRun& run) {
   store_.add(run);
   runs_.insert_or_assign(run.key, run);
 }
 
-double SuiteRuns::expected_s(const Experiment& experiment) const {
+double ThesisRuns::expected_s(const Experiment& experiment) const {
   const auto known = store_.property(cost_name(experiment));
   const double last_s = known ? std::strtod(known->c_str(), nullptr) : 0.0;
   return last_s > 0.0 ? last_s : kUsualSecondsPerSimulatedSecond * experiment.simulated_s;
 }
 
-void SuiteRuns::remember_cost(const Experiment& experiment, double wall_s) {
+void ThesisRuns::remember_cost(const Experiment& experiment, double wall_s) {
   store_.set_property(cost_name(experiment), std::to_string(wall_s));
 }
 

@@ -1,4 +1,4 @@
-#include "tools/thesis/suite_page.h"
+#include "tools/thesis/page.h"
 
 #include <algorithm>
 
@@ -105,7 +105,7 @@ std::string open_rows(const std::vector<RowResult>& rows) {
 
 }  // namespace
 
-std::string suite_page(const std::vector<RowResult>& rows, const RunLinks& links) {
+std::string thesis_page(const std::vector<RowResult>& rows, const RunLinks& links) {
   std::string html =
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
       "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>The thesis's claims – "

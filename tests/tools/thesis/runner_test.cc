@@ -1,4 +1,4 @@
-#include "tools/thesis/suite_runner.h"
+#include "tools/thesis/runner.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/tools/thesis/experiment_text.h"
-#include "tools/thesis/suite_page.h"
-#include "tools/thesis/suite_results.h"
+#include "tools/thesis/page.h"
+#include "tools/thesis/results.h"
 
 namespace plumbline {
 namespace {
@@ -38,35 +38,35 @@ constexpr const char* kTable =
     "     simulated_s: 20, configurations: [{name: all}, {name: none_such, estimator: crystal_ball}],\n"
     "     checks: [{max: 1}]}\n";
 
-class SuiteRunnerTest : public ::testing::Test {
+class ThesisRunnerTest : public ::testing::Test {
  protected:
-  SuiteRunnerTest() {
+  ThesisRunnerTest() {
     directory_.write("scenario.yaml", "motion:\n  waypoints: [[4, 4.75, 1.5], [24, 4.75, 1.5]]\n");
     directory_.write("stub.sh", kStub);
     experiments_ = read_experiments(directory_.write("experiments.yaml", kTable));
   }
 
-  std::vector<std::string> stub(const std::string& what, const SuiteRun& run, const fs::path& where,
+  std::vector<std::string> stub(const std::string& what, const ThesisRun& run, const fs::path& where,
                                 const std::string& recording = "") const {
     return {"/usr/bin/env", variable_ + "=1", "/bin/sh", (directory_.path() / "stub.sh").string(), what, where.string(),
             log().string(), run.label,        recording};
   }
-  SuiteCommands commands(bool recording) const {
-    SuiteCommands commands;
-    commands.run = [this](const SuiteRun& run, const fs::path& where) { return stub("run", run, where); };
+  ThesisCommands commands(bool recording) const {
+    ThesisCommands commands;
+    commands.run = [this](const ThesisRun& run, const fs::path& where) { return stub("run", run, where); };
     if (!recording) return commands;
-    commands.record = [this](const SuiteRun& run, const fs::path& where) { return stub("record", run, where); };
-    commands.replay = [this](const SuiteRun& run, const fs::path& from, const fs::path& where) {
+    commands.record = [this](const ThesisRun& run, const fs::path& where) { return stub("record", run, where); };
+    commands.replay = [this](const ThesisRun& run, const fs::path& from, const fs::path& where) {
       return stub("replay", run, where, from.string());
     };
     return commands;
   }
-  bool run(const std::vector<SuiteRow>& rows, const SuiteOptions& options = {}, bool recording = false) const {
-    SuiteRuns runs(directory_.path() / "out");
-    return run_suite(rows, runs, commands(recording), options);
+  bool run(const std::vector<ThesisRow>& rows, const ThesisOptions& options = {}, bool recording = false) const {
+    ThesisRuns runs(directory_.path() / "out");
+    return run_thesis(rows, runs, commands(recording), options);
   }
-  std::vector<SuiteRow> plan(const std::string& program = "1.0 (abc)") const {
-    return plan_suite(experiments_, program);
+  std::vector<ThesisRow> plan(const std::string& program = "1.0 (abc)") const {
+    return plan_thesis(experiments_, program);
   }
 
   fs::path log() const { return directory_.path() / "calls.log"; }
@@ -82,21 +82,21 @@ class SuiteRunnerTest : public ::testing::Test {
   std::string variable_ = "NOTHING";
 };
 
-TEST_F(SuiteRunnerTest, CheapRowsComeFirstAndWhatRowsShareRunsOnce) {
+TEST_F(ThesisRunnerTest, CheapRowsComeFirstAndWhatRowsShareRunsOnce) {
   EXPECT_TRUE(run(plan()));
   EXPECT_THAT(calls(), ElementsAre("run short vloam seed 1", "run short vio seed 1", "run short vloam seed 2",
                                    "run short vio seed 2", "run short vloam seed 3", "run short vio seed 3",
                                    "run long fast seed 1", "run long fast seed 2", "run long fast seed 3"));
 }
 
-TEST_F(SuiteRunnerTest, GoesOnWhereItWasStopped) {
-  const std::vector<SuiteRow> rows = plan();
+TEST_F(ThesisRunnerTest, GoesOnWhereItWasStopped) {
+  const std::vector<ThesisRow> rows = plan();
   {
-    SuiteRuns runs(directory_.path() / "out");
+    ThesisRuns runs(directory_.path() / "out");
     StoredRun stored;
     stored.outcome = "finished";
     stored.result = R"({"status":"ok","drift_percent":0.4})";
-    for (const SuiteRun& run : rows[1].runs[0]) {
+    for (const ThesisRun& run : rows[1].runs[0]) {
       stored.key = run.planned.key;
       runs.add(stored);
     }
@@ -114,22 +114,22 @@ TEST_F(SuiteRunnerTest, GoesOnWhereItWasStopped) {
   EXPECT_EQ(calls().size(), 15U) << "another version starts anew";
 }
 
-TEST_F(SuiteRunnerTest, StartsNothingThatDoesNotFitIntoTheBudget) {
-  SuiteOptions options;
+TEST_F(ThesisRunnerTest, StartsNothingThatDoesNotFitIntoTheBudget) {
+  ThesisOptions options;
   options.budget_s = 200.0;
   EXPECT_TRUE(run(plan(), options));
   EXPECT_EQ(calls().size(), 6U) << "the long row alone is expected to take longer";
 }
 
-TEST_F(SuiteRunnerTest, RowsWithoutAVerdictComeFirst) {
-  SuiteOptions options;
+TEST_F(ThesisRunnerTest, RowsWithoutAVerdictComeFirst) {
+  ThesisOptions options;
   options.has_verdict = [](const std::string& id) { return id != "long"; };
   EXPECT_TRUE(run(plan(), options));
   EXPECT_EQ(calls().front(), "run long fast seed 1");
 }
 
-TEST_F(SuiteRunnerTest, SensorsThatConfigurationsShareAreRecordedOnce) {
-  std::vector<SuiteRow> rows = plan();
+TEST_F(ThesisRunnerTest, SensorsThatConfigurationsShareAreRecordedOnce) {
+  std::vector<ThesisRow> rows = plan();
   rows.erase(rows.begin());
   EXPECT_TRUE(run(rows, {}, true));
   EXPECT_THAT(calls(),
@@ -139,22 +139,22 @@ TEST_F(SuiteRunnerTest, SensorsThatConfigurationsShareAreRecordedOnce) {
   EXPECT_TRUE(fs::is_empty(directory_.path() / "out/streams")) << "recordings go when nobody needs them";
 }
 
-TEST_F(SuiteRunnerTest, WithoutARecordingEveryRunSimulates) {
+TEST_F(ThesisRunnerTest, WithoutARecordingEveryRunSimulates) {
   variable_ = "NO_RECORDING";
-  std::vector<SuiteRow> rows = plan();
+  std::vector<ThesisRow> rows = plan();
   rows.erase(rows.begin());
   EXPECT_TRUE(run(rows, {}, true));
   const std::vector<std::string> said = calls();
   EXPECT_EQ(std::count(said.begin(), said.end(), "run short vio seed 3"), 1);
 }
 
-TEST_F(SuiteRunnerTest, ResultsAndPageSayWhatIsKnown) {
-  const std::vector<SuiteRow> rows = plan();
+TEST_F(ThesisRunnerTest, ResultsAndPageSayWhatIsKnown) {
+  const std::vector<ThesisRow> rows = plan();
   EXPECT_TRUE(run(rows));
   std::vector<RowResult> results;
   {
-    const SuiteRuns runs(directory_.path() / "out");
-    for (const SuiteRow& row : rows) {
+    const ThesisRuns runs(directory_.path() / "out");
+    for (const ThesisRow& row : rows) {
       results.push_back(row_result(row.experiment, runs.of(row), row.impossible, "1.0 (abc)"));
     }
   }
@@ -165,7 +165,7 @@ TEST_F(SuiteRunnerTest, ResultsAndPageSayWhatIsKnown) {
       EXPECT_TRUE(row.contains(key)) << key;
     }
   }
-  EXPECT_EQ(json["rows"][0]["ours"], "0.5 %");
+  EXPECT_EQ(json["rows"][0]["ours"], "0.500 %");
   EXPECT_EQ(json["rows"][0]["holds"], true);
   EXPECT_EQ(json["rows"][0]["seeds"], 3);
   EXPECT_EQ(json["rows"][0]["version"], "1.0 (abc)");
@@ -175,8 +175,8 @@ TEST_F(SuiteRunnerTest, ResultsAndPageSayWhatIsKnown) {
   // What was written is read back, and an older version's verdict stands until there is a newer one.
   const std::vector<RowResult> read = read_results(directory_.write("results.json", results_json(results)));
   EXPECT_EQ(results_json(read), results_json(results));
-  const SuiteRuns nothing(directory_.path() / "fresh");
-  const SuiteRow& row = rows.front();
+  const ThesisRuns nothing(directory_.path() / "fresh");
+  const ThesisRow& row = rows.front();
   const RowResult unrun = row_result(row.experiment, nothing.of(row), row.impossible, "1.1");
   EXPECT_EQ(nlohmann::json::parse(results_json({unrun}))["rows"][0]["ours"], nullptr);
   EXPECT_EQ(newer(unrun, read).version, "1.0 (abc)");
@@ -185,7 +185,7 @@ TEST_F(SuiteRunnerTest, ResultsAndPageSayWhatIsKnown) {
   EXPECT_EQ(newer(row_result(stricter, nothing.of(row), "", "1.1"), read).version, "")
       << "a verdict on other checks does not";
 
-  const std::string page = suite_page(results, {{"long", {{"fast seed 1", "runs/x/report.html"}}}});
+  const std::string page = thesis_page(results, {{"long", {{"fast seed 1", "runs/x/report.html"}}}});
   EXPECT_THAT(page, HasSubstr("&lt; 1 %"));
   EXPECT_THAT(page, HasSubstr("runs/x/report.html"));
   EXPECT_THAT(page, HasSubstr("<svg"));

@@ -1,4 +1,4 @@
-#include "tools/thesis/suite_plan.h"
+#include "tools/thesis/plan.h"
 
 #include <algorithm>
 #include <cctype>
@@ -43,8 +43,8 @@ class RunPlanner {
  public:
   explicit RunPlanner(const std::string& program) : program_(file_name_of(program)) {}
 
-  SuiteRun plan(const Experiment& experiment, const Configuration& configuration, std::uint64_t seed) {
-    SuiteRun run;
+  ThesisRun plan(const Experiment& experiment, const Configuration& configuration, std::uint64_t seed) {
+    ThesisRun run;
     run.label = experiment.id + " " + configuration.name + " seed " + std::to_string(seed);
     run.scenario = std::filesystem::absolute(experiment.scenario);
     run.overrides = configuration.overrides;
@@ -72,13 +72,13 @@ class RunPlanner {
 
 }  // namespace
 
-std::vector<SuiteRow> plan_suite(const std::vector<Experiment>& experiments, const std::string& program) {
-  std::vector<SuiteRow> rows;
+std::vector<ThesisRow> plan_thesis(const std::vector<Experiment>& experiments, const std::string& program) {
+  std::vector<ThesisRow> rows;
   RunPlanner planner(program);
   for (const Experiment& experiment : experiments) {
-    SuiteRow row{experiment, {}, {}};
+    ThesisRow row{experiment, {}, {}};
     for (const Configuration& configuration : experiment.configurations) {
-      std::vector<SuiteRun>& runs = row.runs.emplace_back();
+      std::vector<ThesisRun>& runs = row.runs.emplace_back();
       try {
         for (const std::uint64_t seed : experiment.seeds) {
           runs.push_back(planner.plan(experiment, configuration, seed));

@@ -1,4 +1,4 @@
-#include "tools/thesis/suite_results.h"
+#include "tools/thesis/results.h"
 
 #include <algorithm>
 #include <fstream>
@@ -115,7 +115,7 @@ std::vector<RowResult> read_results(const std::filesystem::path& path) {
   try {
     for (const ordered_json& row : ordered_json::parse(text).at("rows")) rows.push_back(row_of(row));
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(path.string() + ": found no results of the suite (" + error.what() +
+    throw InputError(path.string() + ": found no results of the thesis suite (" + error.what() +
                      "), expected what it wrote itself");
   }
   return rows;

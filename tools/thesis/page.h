@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "tools/thesis/suite_results.h"
+#include "tools/thesis/results.h"
 
 namespace plumbline {
 
@@ -14,6 +14,6 @@ using RunLinks = std::map<std::string, std::vector<std::pair<std::string, std::s
 
 /// The table of claims, and for each one begun its checks with a chart of the spread over seeds: one HTML page that
 /// needs nothing but the runs' own pages that it links to.
-std::string suite_page(const std::vector<RowResult>& rows, const RunLinks& links);
+std::string thesis_page(const std::vector<RowResult>& rows, const RunLinks& links);
 
 }  // namespace plumbline

@@ -10,7 +10,7 @@
 namespace plumbline {
 
 /// One run of an experiment: a configuration with a seed.
-struct SuiteRun {
+struct ThesisRun {
   PlannedRun
       planned;  ///< its key is scenario digest, seed and program version: the same run has the same key in any row
   std::string label;  ///< "ch5_campus vloam seed 1"
@@ -21,15 +21,15 @@ struct SuiteRun {
 };
 
 /// The runs of an experiment: of each configuration, of each seed.
-struct SuiteRow {
+struct ThesisRow {
   Experiment experiment;
-  std::vector<std::vector<SuiteRun>> runs;  ///< none of a configuration that this program cannot run
-  std::string impossible;                   ///< why it cannot; empty if it can run all
+  std::vector<std::vector<ThesisRun>> runs;  ///< none of a configuration that this program cannot run
+  std::string impossible;                    ///< why it cannot; empty if it can run all
 };
 
 /// Loads the scenario of every run once. What this program cannot run, for want of an estimator or a scene, stays in
 /// the plan and says why.
 /// @param program  version that makes the runs
-std::vector<SuiteRow> plan_suite(const std::vector<Experiment>& experiments, const std::string& program);
+std::vector<ThesisRow> plan_thesis(const std::vector<Experiment>& experiments, const std::string& program);
 
 }  // namespace plumbline

@@ -1,4 +1,4 @@
-#include "tools/thesis/suite_runner.h"
+#include "tools/thesis/runner.h"
 
 #include <algorithm>
 #include <chrono>
@@ -18,19 +18,21 @@ constexpr double kTimeLimitFactor = 20.0;
 constexpr double kLeastTimeLimit_s = 3600.0;
 
 struct Chosen {
-  const SuiteRow* row = nullptr;
-  const SuiteRun* run = nullptr;
+  const ThesisRow* row = nullptr;
+  const ThesisRun* run = nullptr;
 };
 
 class Runner {
  public:
-  Runner(const std::vector<SuiteRow>& rows, SuiteRuns& runs, const SuiteCommands& commands, const SuiteOptions& options)
+  Runner(const std::vector<ThesisRow>& rows, ThesisRuns& runs, const ThesisCommands& commands,
+         const ThesisOptions& options)
       : rows_(rows), runs_(runs), commands_(commands), options_(options) {}
 
   bool work() {
+    remove_unused_recordings();
     for (std::vector<Chosen> batch = next(); !batch.empty(); batch = next()) {
       if (!record_shared(batch) || !make(batch)) return false;
-      remove_spent_recordings(batch);
+      remove_unused_recordings();
       if (options_.ended) options_.ended();
     }
     return true;
@@ -39,14 +41,14 @@ class Runner {
  private:
   double left_s() const { return options_.budget_s - std::chrono::duration<double>(Clock::now() - start_).count(); }
 
-  double remaining_s(const SuiteRow& row) const {
+  double remaining_s(const ThesisRow& row) const {
     return runs_.expected_s(row.experiment) * static_cast<double>(runs_.missing(row).size());
   }
 
-  std::vector<const SuiteRow*> by_urgency() const {
-    std::vector<const SuiteRow*> rows;
-    for (const SuiteRow& row : rows_) rows.push_back(&row);
-    const auto rank = [&](const SuiteRow* row) {
+  std::vector<const ThesisRow*> by_urgency() const {
+    std::vector<const ThesisRow*> rows;
+    for (const ThesisRow& row : rows_) rows.push_back(&row);
+    const auto rank = [&](const ThesisRow* row) {
       const bool old = options_.has_verdict && options_.has_verdict(row->experiment.id);
       return std::pair(old, remaining_s(*row));
     };
@@ -59,9 +61,9 @@ class Runner {
     std::vector<Chosen> batch;
     std::set<std::string> keys;
     const double available_s = left_s();
-    for (const SuiteRow* row : by_urgency()) {
+    for (const ThesisRow* row : by_urgency()) {
       if (runs_.expected_s(row->experiment) > available_s) continue;
-      for (const SuiteRun* run : runs_.missing(*row)) {
+      for (const ThesisRun* run : runs_.missing(*row)) {
         if (batch.size() == static_cast<std::size_t>(options_.jobs)) return batch;
         if (keys.insert(run->planned.key).second) batch.push_back({row, run});
       }
@@ -78,10 +80,10 @@ class Runner {
     return limits;
   }
 
-  std::size_t users_left(const SuiteRun& run) const {
+  std::size_t users_left(const ThesisRun& run) const {
     std::size_t users = 0;
-    for (const SuiteRow& row : rows_) {
-      for (const SuiteRun* other : runs_.missing(row)) users += other->stream == run.stream ? 1U : 0U;
+    for (const ThesisRow& row : rows_) {
+      for (const ThesisRun* other : runs_.missing(row)) users += other->stream == run.stream ? 1U : 0U;
     }
     return users;
   }
@@ -104,7 +106,7 @@ class Runner {
         });
   }
 
-  std::vector<std::string> command_of(const SuiteRun& run) const {
+  std::vector<std::string> command_of(const ThesisRun& run) const {
     const fs::path recording = runs_.stream_directory(run);
     if (commands_.replay && fs::exists(recording)) return commands_.replay(run, recording, runs_.run_directory(run));
     return commands_.run(run, runs_.run_directory(run));
@@ -138,16 +140,22 @@ class Runner {
     return completed && !stopped;
   }
 
-  void remove_spent_recordings(const std::vector<Chosen>& batch) const {
-    for (const Chosen& chosen : batch) {
-      if (users_left(*chosen.run) == 0) fs::remove_all(runs_.stream_directory(*chosen.run));
+  /// Those whose runs have all been made, and those that an older program left.
+  void remove_unused_recordings() const {
+    std::set<std::string> used;
+    for (const ThesisRow& row : rows_) {
+      for (const ThesisRun* run : runs_.missing(row)) used.insert(run->stream);
+    }
+    std::error_code none_there;
+    for (const auto& entry : fs::directory_iterator(runs_.streams(), none_there)) {
+      if (!used.contains(entry.path().filename().string())) fs::remove_all(entry.path());
     }
   }
 
-  const std::vector<SuiteRow>& rows_;
-  SuiteRuns& runs_;
-  const SuiteCommands& commands_;
-  const SuiteOptions& options_;
+  const std::vector<ThesisRow>& rows_;
+  ThesisRuns& runs_;
+  const ThesisCommands& commands_;
+  const ThesisOptions& options_;
   Clock::time_point start_ = Clock::now();
 };
 
@@ -164,18 +172,28 @@ std::vector<std::string> command_line(const std::string& program, const std::str
 
 }  // namespace
 
-SuiteCommands plumbline_commands(const std::string& program) {
-  SuiteCommands commands;
-  commands.run = [program](const SuiteRun& run, const fs::path& directory) {
+ThesisCommands plumbline_commands(const std::string& program) {
+  ThesisCommands commands;
+  commands.run = [program](const ThesisRun& run, const fs::path& directory) {
     std::vector<std::string> command = command_line(program, "run", run.scenario, directory, run.overrides);
     command.insert(command.end(), {"--seed", std::to_string(run.planned.seed)});
+    return command;
+  };
+  commands.record = [program](const ThesisRun& run, const fs::path& directory) {
+    std::vector<std::string> command = command_line(program, "export", run.scenario, directory, run.overrides);
+    command.insert(command.end(), {"--format", "plumbline", "--seed", std::to_string(run.planned.seed)});
+    return command;
+  };
+  commands.replay = [program](const ThesisRun& run, const fs::path& recording, const fs::path& directory) {
+    std::vector<std::string> command = command_line(program, "replay", recording, directory, run.replay_keys);
+    command.insert(command.end(), {"--format", "plumbline"});
     return command;
   };
   return commands;
 }
 
-bool run_suite(const std::vector<SuiteRow>& chosen, SuiteRuns& runs, const SuiteCommands& commands,
-               const SuiteOptions& options) {
+bool run_thesis(const std::vector<ThesisRow>& chosen, ThesisRuns& runs, const ThesisCommands& commands,
+                const ThesisOptions& options) {
   return Runner(chosen, runs, commands, options).work();
 }
 
