@@ -170,7 +170,8 @@ ScanMatcher::ScanMatcher(ScanMatcher&&) noexcept = default;
 ScanMatcher& ScanMatcher::operator=(ScanMatcher&&) noexcept = default;
 ScanMatcher::~ScanMatcher() = default;
 
-SolveResult ScanMatcher::match(const FeatureCloud& features, const PosePrior& world_from_body) {
+SolveResult ScanMatcher::match(const FeatureCloud& features, const PosePrior& world_from_body,
+                               const Linearizer& further_rows) {
   Impl& m = *impl_;
   const FeatureCloud used = {every_nth(features.edges, m.config.edge_budget),
                              pick(features.planes, sample_by_direction(features.planes, m.config.plane_budget))};
@@ -179,7 +180,11 @@ SolveResult ScanMatcher::match(const FeatureCloud& features, const PosePrior& wo
   MapConstraints constraints(m.edges, m.planes, m.edge_limits, m.plane_limits, m.sigma_m, used);
   return solve(
       world_from_body.mean, world_from_body,
-      [&](const Pose& pose, ResidualRows& rows) { constraints.linearize(pose, rows); }, m.options);
+      [&](const Pose& pose, ResidualRows& rows) {
+        constraints.linearize(pose, rows);
+        if (further_rows) further_rows(pose, rows);
+      },
+      m.options);
 }
 
 void ScanMatcher::insert(const FeatureCloud& features, const Pose& world_from_body, double path_m) {

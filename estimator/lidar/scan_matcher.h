@@ -37,7 +37,9 @@ class ScanMatcher {
   ~ScanMatcher();
 
   /// Solves for world_from_body; starts at the prior's mean. With an empty map nothing is well-conditioned.
-  SolveResult match(const FeatureCloud& features_in_body, const PosePrior& world_from_body);
+  /// @param further_rows  of other sensors that take part in the same problem, after the scan's own; empty: none
+  SolveResult match(const FeatureCloud& features_in_body, const PosePrior& world_from_body,
+                    const Linearizer& further_rows = {});
 
   /// Merges a scan into the map at a pose and forgets what is older than memory_path_m.
   /// @param path_m  distance travelled so far by the estimate

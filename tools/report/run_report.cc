@@ -61,8 +61,20 @@ std::string checks(const RunReport& report) {
   return items.empty() ? "" : "<ul class=\"checks\">" + items + "</ul>";
 }
 
+/// Where no truth is known the estimate is all there is to draw.
+std::string blind_map_section(const RunReport& report) {
+  std::vector<PosePair> path;
+  for (const auto& [stamp_ns, pose] : report.record.estimate) path.push_back({stamp_ns, pose, pose});
+  return heading("Path and map", "The estimate and the map it built. The true path is not known.") +
+         "<div class=\"legend\"><span><i class=\"estimate\"></i>estimate</span><span><i style=\"--hue:#808080\"></i>mapped "
+         "points</span></div>" +
+         map_picture(MapView::kTop, path, report.record.map, {}) +
+         map_picture(MapView::kSide, path, report.record.map, {});
+}
+
 std::string map_section(const RunReport& report) {
   const TrajectoryFigures& t = report.figures.trajectory;
+  if (!t.has_truth) return blind_map_section(report);
   const Pose& truth_from_estimate = t.drift_alignment.truth_from_estimate;
   return heading("Path and map",
                  "The estimate and the map it built, laid over the truth by the first second of motion alone, so that "
@@ -86,8 +98,7 @@ std::string degeneracy_section(const RunRecord& record) {
 std::string camera_section(const RunRecord& record) {
   std::string pictures;
   for (const FrameSnapshot& snapshot : record.snapshots) {
-    const std::int64_t start_ns = record.ground_truth.empty() ? 0 : record.ground_truth.front().stamp_ns;
-    pictures += camera_picture(snapshot, start_ns);
+    pictures += camera_picture(snapshot, start_of(record));
   }
   if (pictures.empty()) return {};
   return heading("Camera", "What the estimator saw and tracked; lines lead to where the key-frame saw each feature.") +
