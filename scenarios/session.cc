@@ -11,7 +11,6 @@
 #include "scenarios/sensor_stream.h"
 #include "sim/glare.h"
 #include "sim/rig_driver.h"
-#include "sim/surroundings.h"
 #include "sim/vehicles/vehicle.h"
 
 namespace plumbline {
@@ -100,17 +99,6 @@ void run(const Scenario& scenario, const Trajectory& world_from_body, const Mess
   if (!truth.up_to(world_from_body.end_ns())) recorder.set_fault("interrupted");
 }
 
-/// The vehicle as its sensors see it, or nothing.
-std::unique_ptr<OwnBody> own_body_of(const Scenario& scenario) {
-  if (!scenario.rig.own_body || scenario.motion.vehicle.empty()) return nullptr;
-  const VehicleInfo& vehicle = vehicle_named(scenario.motion.vehicle);
-  if (vehicle.body == nullptr) return nullptr;
-  World world = World::from_scene(vehicle.body(), scenario.seed);
-  RayScene rays(world);
-  return std::make_unique<OwnBody>(
-      OwnBody{std::move(world), std::move(rays), scenario.rig.vehicle_from_pack.inverse()});
-}
-
 }  // namespace
 
 World make_world(const Scenario& scenario) {
@@ -130,6 +118,16 @@ Trajectory make_body_trajectory(const Scenario& scenario, const World& world, co
   });
 }
 
+std::unique_ptr<OwnBody> make_own_body(const Scenario& scenario) {
+  if (!scenario.rig.own_body || scenario.motion.vehicle.empty()) return nullptr;
+  const VehicleInfo& vehicle = vehicle_named(scenario.motion.vehicle);
+  if (vehicle.body == nullptr) return nullptr;
+  World world = World::from_scene(vehicle.body(), scenario.seed);
+  RayScene rays(world);
+  return std::make_unique<OwnBody>(
+      OwnBody{std::move(world), std::move(rays), scenario.rig.vehicle_from_pack.inverse()});
+}
+
 RunRecord run_session(const Scenario& scenario, const World& world, const RayScene& rays,
                       const SessionOptions& options) {
   const auto estimator = as_input(scenario, [&] {
@@ -142,7 +140,7 @@ RunRecord run_session(const Scenario& scenario, const World& world, const RaySce
                       Estimator& estimator) {
   const Trajectory world_from_body = make_body_trajectory(scenario, world, rays);
   Recorder recorder(estimator, world_from_body.end_ns());
-  const std::unique_ptr<OwnBody> own_body = own_body_of(scenario);
+  const std::unique_ptr<OwnBody> own_body = make_own_body(scenario);
   const Surroundings surroundings{world, rays, own_body.get()};
   const MessageSource source = options.threads > 1 ? make_read_ahead_source(scenario, surroundings, world_from_body)
                                                    : make_source(scenario, surroundings, world_from_body);

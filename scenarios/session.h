@@ -1,10 +1,12 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "scenarios/run_record.h"
 #include "scenarios/scenario.h"
 #include "sim/ray_scene.h"
+#include "sim/surroundings.h"
 #include "sim/trajectory.h"
 
 namespace plumbline {
@@ -21,6 +23,9 @@ World make_world(const Scenario& scenario);
 
 /// The body's exact motion in a scenario, stamps counted from 0. @throws InputError
 Trajectory make_body_trajectory(const Scenario& scenario, const World& world, const RayScene& rays);
+
+/// The vehicle as its sensors see it; nullptr where there is none, or it is left out.
+std::unique_ptr<OwnBody> make_own_body(const Scenario& scenario);
 
 /// Runs a scenario in lock-step: world, motion, sensors, estimator. A fault of the estimator ends the run and is kept
 /// in the record; bad input throws InputError before anything is simulated.

@@ -24,6 +24,7 @@ int run_program(int argc, char** argv) {
   add_evaluate_command(app, chosen);
   add_list_command(app, chosen);
   add_merge_command(app, chosen);
+  add_mount_command(app, chosen);
   add_report_command(app, chosen);
   add_sweep_command(app, chosen);
   try {

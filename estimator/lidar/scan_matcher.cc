@@ -94,6 +94,7 @@ struct ScanMatcher::Impl {
   FitLimits edge_limits;
   VoxelMap edges;
   VoxelMap planes;
+  std::vector<MatchRow> rows;  ///< of the last match
 };
 
 namespace {
@@ -118,6 +119,25 @@ class MapConstraints {
     for (const PlaneMatch& m : plane_matches_) add_plane_row(m.point_in_body, m.plane, world_from_body, sigma_m_, rows);
     for (const LineMatch& m : line_matches_) add_line_rows(m.point_in_body, m.line, world_from_body, m.sigma_m, rows);
   }
+
+  /// The rows that linearize() stacked last, not yet weighted: one per plane, then two per line.
+  std::vector<MatchRow> match_rows(const Pose& world_from_body) const {
+    const Eigen::Quaterniond body_from_world = world_from_body.rotation.conjugate();
+    std::vector<MatchRow> rows;
+    rows.reserve(plane_matches_.size() + 2 * line_matches_.size());
+    for (const PlaneMatch& m : plane_matches_) {
+      const double distance_m = m.plane.normal.dot(world_from_body * m.point_in_body) - m.plane.offset;
+      rows.push_back({m.point_in_body, body_from_world * m.plane.normal, distance_m, sigma_m_, 1.0});
+    }
+    for (const LineMatch& m : line_matches_) {
+      const Eigen::Vector3d off = world_from_body * m.point_in_body - m.line.point;
+      for (const Eigen::Vector3d& across : {m.line.across_1, m.line.across_2}) {
+        rows.push_back({m.point_in_body, body_from_world * across, across.dot(off), m.sigma_m, 1.0});
+      }
+    }
+    return rows;
+  }
+  std::size_t plane_count() const { return plane_matches_.size(); }
 
  private:
   bool moved_far(const Pose& pose) const {
@@ -177,10 +197,25 @@ SolveResult ScanMatcher::match(const FeatureCloud& features, const PosePrior& wo
   m.edges.prepare(in_world(used.edges, world_from_body.mean));
   m.planes.prepare(in_world(used.planes, world_from_body.mean));
   MapConstraints constraints(m.edges, m.planes, m.edge_limits, m.plane_limits, m.sigma_m, used);
-  return solve(
+  m.rows.clear();
+  std::size_t planes = 0;
+  const SolveResult result = solve(
       world_from_body.mean, world_from_body,
-      [&](const Pose& pose, ResidualRows& rows) { constraints.linearize(pose, rows); }, m.options);
+      [&](const Pose& pose, ResidualRows& rows) {
+        constraints.linearize(pose, rows);
+        if (!m.rows.empty()) return;
+        m.rows = constraints.match_rows(pose);
+        planes = constraints.plane_count();
+      },
+      m.options);
+  for (std::size_t i = 0; i < m.rows.size(); ++i) {
+    const std::size_t feature = i < planes ? i : planes + (i - planes) / 2;
+    m.rows[i].weight = feature < result.weights_at_guess.size() ? result.weights_at_guess[feature] : 0.0;
+  }
+  return result;
 }
+
+const std::vector<MatchRow>& ScanMatcher::rows() const { return impl_->rows; }
 
 void ScanMatcher::insert(const FeatureCloud& features, const Pose& world_from_body, double path_m) {
   Impl& m = *impl_;

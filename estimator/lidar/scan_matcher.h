@@ -5,6 +5,7 @@
 
 #include "estimator/estimator.h"
 #include "estimator/lidar/features.h"
+#include "estimator/solver/detectors.h"
 #include "estimator/solver/robust_solver.h"
 
 namespace plumbline {
@@ -38,6 +39,9 @@ class ScanMatcher {
 
   /// Solves for world_from_body; starts at the prior's mean. With an empty map nothing is well-conditioned.
   SolveResult match(const FeatureCloud& features_in_body, const PosePrior& world_from_body);
+
+  /// The rows of the last match as they were at its guess, with their robust weights: what detectors of degeneracy see.
+  const std::vector<MatchRow>& rows() const;
 
   /// Merges a scan into the map at a pose and forgets what is older than memory_path_m.
   /// @param path_m  distance travelled so far by the estimate

@@ -6,10 +6,12 @@
 #include <opencv2/core/utility.hpp>
 #include <thread>
 
+#include "scenarios/degeneracy_lab.h"
 #include "scenarios/session.h"
 #include "tools/commands/command.h"
 #include "tools/exit_code.h"
 #include "tools/interrupt.h"
+#include "tools/lab/lab_table.h"
 #include "tools/output/run_files.h"
 #include "tools/output/summary.h"
 #include "tools/progress_line.h"
@@ -80,6 +82,14 @@ int run_scenario(const RunArguments& arguments) {
   directory.open();
   catch_interrupts();
   const RunRecord record = simulate(scenario, world, rays, threads);
+  if (arguments.detectors && !interrupted()) {
+    ProgressLine line(scenario.name + ", detectors");
+    const auto trials = run_degeneracy_lab(scenario, world, rays, [&](double share) {
+      line.update(share);
+      return !interrupted();
+    });
+    directory.write("detectors.csv", lab_csv(trials));
+  }
   const JudgedRun run = write_run(
       directory, scenario, record,
       [&](const Eigen::Vector3d& point) { return rays.distance_to_surface(point, kMapErrorLimit); },
@@ -104,6 +114,8 @@ void add_run_command(CLI::App& app, Action& chosen) {
   run->add_option("--seed", arguments->seed, "instead of the scenario's")->check(whole_number());
   run->add_option("--estimator", arguments->estimator, "instead of the scenario's; see `plumbline list estimators`");
   run->add_option("--out", arguments->out, "directory for the results; out/NAME-SEED by default");
+  run->add_flag("--detectors", arguments->detectors,
+                "also judge detectors of degeneracy against the exact information, in detectors.csv");
   run->add_option("--threads", arguments->threads, "all of the machine by default; the results are the same")
       ->check(CLI::Range(1, kMaxThreads));
   run->callback([arguments, &chosen] { chosen = [arguments] { return run_scenario(*arguments); }; });

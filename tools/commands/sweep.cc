@@ -4,10 +4,10 @@
 #include <charconv>
 #include <iostream>
 #include <memory>
-#include <thread>
 
 #include "scenarios/input_error.h"
 #include "tools/commands/command.h"
+#include "tools/commands/study_options.h"
 #include "tools/exit_code.h"
 #include "tools/interrupt.h"
 #include "tools/progress_line.h"
@@ -19,8 +19,6 @@ namespace plumbline {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kMaxJobs = 1024;
 
 Shard shard_of(const std::string& text) {
   Shard shard;
@@ -36,16 +34,6 @@ Shard shard_of(const std::string& text) {
   return shard;
 }
 
-int jobs_of(const SweepArguments& arguments) {
-  if (arguments.jobs > 0) return arguments.jobs;
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
-fs::path absolute_directory(const std::string& path) {
-  const fs::path normal = fs::absolute(path).lexically_normal();
-  return normal.has_filename() ? normal : normal.parent_path();
-}
-
 void print_summary(const SweepPlan& plan, const std::vector<RunRow>& rows, const fs::path& out) {
   const auto ok = std::count_if(rows.begin(), rows.end(), [](const RunRow& row) { return row.is_ok(); });
   std::cout << plan.name << ": " << rows.size() << " of " << plan.runs.size() << " runs made, " << ok << " ok\n"
@@ -55,7 +43,7 @@ void print_summary(const SweepPlan& plan, const std::vector<RunRow>& rows, const
 
 int sweep_into(const fs::path& out, const SweepPlan& plan, const RunCommand& command, const SweepArguments& arguments) {
   const auto mode = arguments.resume ? SweepDirectory::Mode::kResume : SweepDirectory::Mode::kNew;
-  SweepOptions options{jobs_of(arguments), shard_of(arguments.shard), {}};
+  SweepOptions options{jobs_or_cores(arguments.jobs), shard_of(arguments.shard), {}};
   SweepDirectory directory(out, plan, mode);
   catch_interrupts();
   bool completed = false;
@@ -83,7 +71,7 @@ int run_sweep(const SweepArguments& arguments) {
   const std::string program = fs::read_symlink("/proc/self/exe").string();
   if (!arguments.shrink.empty()) {
     catch_interrupts();
-    return shrink_run(sweep, plan, arguments.shrink, out, jobs_of(arguments), program);
+    return shrink_run(sweep, plan, arguments.shrink, out, jobs_or_cores(arguments.jobs), program);
   }
   return sweep_into(out, plan, plumbline_run(sweep, plan, program), arguments);
 }
@@ -93,8 +81,7 @@ void add_sweep_command(CLI::App& app, Action& chosen) {
   CLI::App* sweep = app.add_subcommand("sweep", "Run a scenario over ranges of its keys, seeds and estimators");
   sweep->add_option("SWEEP", arguments->sweep, "sweep file")->required();
   sweep->add_option("--out", arguments->out, "directory for the results")->required();
-  sweep->add_option("--jobs", arguments->jobs, "runs at a time; one per core by default; the results are the same")
-      ->check(CLI::Range(1, kMaxJobs));
+  add_jobs_option(*sweep, arguments->jobs);
   sweep->add_option("--shard", arguments->shard, "I/N: only the I-th of N shares of the work, I from 1; see merge");
   sweep->add_flag("--resume", arguments->resume, "go on with what is in the directory");
   sweep->add_option("--shrink", arguments->shrink,

@@ -80,19 +80,20 @@ std::string charts_html(const SweepView& view, std::vector<Drawing>& all) {
 
 }  // namespace
 
-SweepReport sweep_report(const SweepPlan& plan, const std::vector<RunRow>& rows) {
+SweepReport sweep_report(const SweepPlan& plan, const std::vector<RunRow>& rows, const LabFindings& lab) {
   const SweepView view(plan, rows);
   SweepReport report;
   std::string boundary = chart_section(
       "Boundary", "The value at which success and failure are equally likely, from runs chosen where each tells most.",
       boundary_charts(view), report.charts);
   if (!boundary.empty()) boundary += boundary_table(plan, rows);
+  const std::string detectors = lab_section(lab, report.charts);
   const std::string charts = charts_html(view, report.charts);
   report.html =
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
       "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>" +
       escape_markup(plan.name) + " – Plumbline</title><style>" + kPageStyle + "</style></head><body><main>" +
-      title_block(plan) + tiles(view) + boundary +
+      title_block(plan) + tiles(view) + boundary + detectors +
       heading(
           "Estimators",
           "Intervals are 95 %. Compared pairwise: over the runs that both made with the same settings and seed, the "

@@ -1,0 +1,91 @@
+#include "tools/lab/lab_table.h"
+
+#include <charconv>
+#include <fstream>
+#include <numbers>
+
+#include "tools/formats/number_text.h"
+
+namespace plumbline {
+namespace {
+
+constexpr int kDigits = 9;
+constexpr std::size_t kColumns = 1 + 6 + 2 + 2 * kDetectors.size() + 2;
+
+std::string header() {
+  std::string text = "stamp_ns";
+  for (int i = 1; i <= 6; ++i) text += ",excess_" + std::to_string(i);
+  text += ",degenerate,mean_range_m";
+  for (const Detector detector : kDetectors) {
+    const std::string name(to_string(detector));
+    text += "," + name + "," + name + "_angle_deg";
+  }
+  return text + ",error_over_selected,error_over_all\n";
+}
+
+void append(std::string& text, const std::optional<double>& value, double unit = 1.0) {
+  text += ',';
+  if (value) append_general(text, *value * unit, kDigits);
+}
+
+/// Cells of a line; an empty one is nothing. @returns fewer than all if one is no number
+std::vector<std::optional<double>> cells_of(const std::string& line) {
+  std::vector<std::optional<double>> cells;
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t end = std::min(line.find(',', begin), line.size());
+    if (begin == end) {
+      cells.emplace_back();
+    } else {
+      double value = 0.0;
+      const auto [stop, error] = std::from_chars(line.data() + begin, line.data() + end, value);
+      if (error != std::errc() || stop != line.data() + end) return {};
+      cells.emplace_back(value);
+    }
+    begin = end + 1;
+  }
+  return cells;
+}
+
+}  // namespace
+
+std::string lab_csv(const std::vector<ScanTrial>& trials) {
+  std::string text = header();
+  for (const ScanTrial& trial : trials) {
+    text += std::to_string(trial.stamp_ns);
+    for (int i = 0; i < 6; ++i) append(text, trial.label.excess[i]);
+    text += "," + std::to_string(trial.label.degenerate());
+    append(text, trial.mean_range_m);
+    for (const DetectorReading& reading : trial.detectors) {
+      append(text, reading.score);
+      append(text, reading.angle_rad, 180.0 / std::numbers::pi);
+    }
+    append(text, trial.error_over_selected);
+    append(text, trial.error_over_all);
+    text += '\n';
+  }
+  return text;
+}
+
+std::vector<LabRow> read_lab_csv(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::string line;
+  if (!std::getline(file, line) || line + "\n" != header()) return {};
+  std::vector<LabRow> rows;
+  while (std::getline(file, line)) {
+    const auto cells = cells_of(line);
+    if (cells.size() != kColumns || !cells[1] || !cells[7]) return {};
+    LabRow row;
+    row.worst_excess = *cells[1];
+    row.degenerate = static_cast<int>(*cells[7]);
+    for (std::size_t i = 0; i < kDetectors.size(); ++i) {
+      row.scores.push_back(cells[9 + 2 * i].value_or(0.0));
+      row.angles_deg.push_back(cells[10 + 2 * i]);
+    }
+    row.error_over_selected = cells[kColumns - 2];
+    row.error_over_all = cells[kColumns - 1];
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scenarios/degeneracy_lab.h"
+
+namespace plumbline {
+
+/// detectors.csv of a run: stamp_ns, excess_1 ... excess_6 (the bound's standard deviations over their limits, worst
+/// first), degenerate (how many directions are), mean_range_m, for each detector its score and, where a direction is
+/// degenerate, angle_deg, and error_over_selected, error_over_all.
+std::string lab_csv(const std::vector<ScanTrial>& trials);
+
+/// A row of it, read back.
+struct LabRow {
+  double worst_excess = 0.0;
+  int degenerate = 0;
+  std::vector<double> scores;                     ///< as kDetectors
+  std::vector<std::optional<double>> angles_deg;  ///< as kDetectors
+  std::optional<double> error_over_selected;
+  std::optional<double> error_over_all;
+};
+
+/// @returns nothing where there is no such file, or it is not one of ours
+std::vector<LabRow> read_lab_csv(const std::filesystem::path& path);
+
+}  // namespace plumbline
