@@ -4,6 +4,8 @@
 #include <chrono>
 #include <exception>
 
+#include "scenarios/estimator_fault.h"
+
 namespace plumbline {
 namespace {
 
@@ -16,6 +18,8 @@ double Recorder::guarded(Call call) {
   const auto start = std::chrono::steady_clock::now();
   try {
     call();
+  } catch (const EstimatorFault& fault) {
+    set_fault(fault.what());
   } catch (const std::exception& error) {
     set_fault(std::string("the estimator threw: ") + error.what());
   } catch (...) {

@@ -102,7 +102,8 @@ struct Scenario {
   MotionConfig motion;
   RigConfig rig;
   std::vector<Fault> faults;
-  std::string estimator_name = "vloam";
+  std::string estimator_name = "vloam";       ///< of estimator_library(), or an OutsideName
+  std::filesystem::path estimator_directory;  ///< in which an outside estimator is started: where its name was set
   EstimatorConfig estimator;
   std::vector<Expectation> expect;
   std::optional<std::string> expect_status;

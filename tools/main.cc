@@ -22,6 +22,7 @@ int run_program(int argc, char** argv) {
   Action chosen;
   add_run_command(app, chosen);
   add_evaluate_command(app, chosen);
+  add_host_command(app, chosen);
   add_list_command(app, chosen);
   add_merge_command(app, chosen);
   add_mount_command(app, chosen);

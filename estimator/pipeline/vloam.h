@@ -1,9 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
-#include <variant>
 #include <vector>
 
 #include "estimator/estimator.h"
@@ -11,6 +9,7 @@
 #include "estimator/imu/inertial_filter.h"
 #include "estimator/imu/initialization.h"
 #include "estimator/lidar/scan_matcher.h"
+#include "estimator/pipeline/message_gate.h"
 #include "estimator/vision/visual_odometry.h"
 
 namespace plumbline {
@@ -25,44 +24,47 @@ class Vloam final : public Estimator {
   void add(const CameraFrame& frame) override;
   void add(const DepthFrame& frame) override;
   void add(const LidarScan& scan) override;
+  /// Points that someone else found and identified, in place of a camera's images.
+  void add(const PointFrame& frame);
   std::vector<Odometry> take() override;
   MessageCounts counts(Module module) const override;
   std::vector<TrackedFeature> features() const override;
   std::vector<MapPoint> map() const override;
 
  private:
-  using Exteroceptive = std::variant<CameraFrame, LidarScan>;
-
   void start_with(const InitialState& start, const ImuSample& sample);
-  void hold(std::int64_t stamp_ns, Exteroceptive message);
+  template <typename Payload>
+  void take_in(const Payload& payload);
   void advance_to(std::int64_t stamp_ns, const InertialSegment& segment);
+  void handle(const MessageGate::Message& message);
   void handle(const CameraFrame& frame);
+  void handle(const PointFrame& frame);
+  void handle(const DepthFrame& frame);
   void handle(const LidarScan& scan);
+  template <typename Frame>
+  void see(const Frame& frame);
   void refine_with_scan(const LidarScan& scan, const std::vector<Eigen::Vector3f>& points_in_body);
   /// Lets an update act, and moves the recent track with it, so that the track's inner shape stays the IMU's.
   template <typename Update>
   void correct(Update&& update);
   void report(std::int64_t stamp_ns, Module module, const SolveResult& solved, const Pose& predicted, double seconds);
-  void drop(Module module, const char* reason);
   Odometry output(std::int64_t stamp_ns) const;
 
   Calibration calibration_;
   EstimatorConfig config_;
+  MessageGate gate_;
   Initializer initializer_;
   std::optional<InertialFilter> filter_;  ///< empty until the start is known
   VisualOdometry vision_;
   ScanMatcher matcher_;
 
   ImuSample last_sample_;
-  PoseTrack track_;                                     ///< world_from_body over the last sweep or so
-  std::multimap<std::int64_t, Exteroceptive> waiting_;  ///< messages ahead of the IMU
-  std::vector<std::uint8_t> last_pixels_;               ///< of the newest frame
+  PoseTrack track_;  ///< world_from_body over the last sweep or so
   double path_m_ = 0.0;
   Eigen::Vector3d last_scan_position_ = Eigen::Vector3d::Zero();
 
   std::vector<Odometry> outputs_;
   std::vector<ModuleHealth> health_;
-  std::map<Module, MessageCounts> counts_;
 };
 
 }  // namespace plumbline

@@ -11,6 +11,7 @@ using Action = std::function<int()>;
 /// Each adds its verb to the program and sets `chosen` when the command line holds it.
 void add_run_command(CLI::App& app, Action& chosen);
 void add_evaluate_command(CLI::App& app, Action& chosen);
+void add_host_command(CLI::App& app, Action& chosen);
 void add_list_command(CLI::App& app, Action& chosen);
 void add_mount_command(CLI::App& app, Action& chosen);
 void add_merge_command(CLI::App& app, Action& chosen);

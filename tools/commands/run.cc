@@ -13,6 +13,7 @@
 #include "tools/interrupt.h"
 #include "tools/lab/lab_table.h"
 #include "tools/output/run_files.h"
+#include "tools/outside/open_estimator.h"
 #include "tools/output/summary.h"
 #include "tools/progress_line.h"
 
@@ -47,7 +48,8 @@ RunRecord simulate(const Scenario& scenario, const World& world, const RayScene&
     return !interrupted();
   };
   try {
-    return run_session(scenario, world, rays, options);
+    const auto estimator = open_estimator(scenario);
+    return run_session(scenario, world, rays, options, *estimator);
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& error) {

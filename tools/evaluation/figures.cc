@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "estimator/geometry/so3.h"
 #include "tools/evaluation/consistency.h"
 
 namespace plumbline {
@@ -10,6 +12,10 @@ namespace {
 
 constexpr double kLostFloor = 1.0;  // [m]
 constexpr double kLostShare = 0.1;  // of the distance travelled
+
+double rotation_error_deg(const PosePair& pair) {
+  return log_so3(pair.truth.rotation.conjugate() * pair.estimate.rotation).norm() * 180.0 / std::numbers::pi;
+}
 
 double position_error(const PosePair& pair) { return (pair.estimate.translation - pair.truth.translation).norm(); }
 
@@ -71,6 +77,7 @@ TrajectoryFigures trajectory_figures(const StampedPoses& truth, const StampedPos
   figures.drift_alignment = alignment ? align(pairs, *alignment) : Alignment{align_first_second(pairs), 1.0};
   figures.aligned = moved_by(figures.drift_alignment, pairs);
   figures.final_error_m = position_error(figures.aligned.back());
+  figures.final_error_deg = rotation_error_deg(figures.aligned.back());
   const auto worst = std::max_element(figures.aligned.begin(), figures.aligned.end(), [](const auto& a, const auto& b) {
     return position_error(a) < position_error(b);
   });
@@ -117,6 +124,7 @@ std::vector<Figure> figure_list(const TrajectoryFigures& figures) {
       {"rpe_rmse_m", finite(translation_of(figures.rpe))},
       {"rpe_rmse_deg", finite(rotation_of(figures.rpe))},
       {"final_error_m", finite(figures.final_error_m)},
+      {"final_error_deg", finite(figures.final_error_deg)},
       {"max_error_m", finite(figures.max_error_m)},
       {"lost_since_s", finite(figures.lost_since_s)},
   };

@@ -21,6 +21,7 @@ struct TrajectoryFigures {
   double duration_s = 0.0;  ///< of the truth
   double distance_m = 0.0;  ///< of the truth
   std::optional<double> final_error_m;
+  std::optional<double> final_error_deg;
   std::optional<double> max_error_m;
   std::optional<double> drift_percent;
   ProgressRatio progress;

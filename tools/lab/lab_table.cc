@@ -53,7 +53,7 @@ std::string lab_csv(const std::vector<ScanTrial>& trials) {
   for (const ScanTrial& trial : trials) {
     text += std::to_string(trial.stamp_ns);
     for (int i = 0; i < 6; ++i) append(text, trial.label.excess[i]);
-    text += "," + std::to_string(trial.label.degenerate());
+    (text += ',') += std::to_string(trial.label.degenerate());
     append(text, trial.mean_range_m);
     for (const DetectorReading& reading : trial.detectors) {
       append(text, reading.score);

@@ -37,7 +37,9 @@ void flatten(const std::string& key, const ordered_json& value, RunRow& row) {
   }
 }
 
-RunRow row_of(const PlannedRun& run, const StoredRun& stored) {
+}  // namespace
+
+RunRow run_row(const PlannedRun& run, const StoredRun& stored) {
   RunRow row;
   row.run = run;
   row.outcome = stored.outcome;
@@ -55,8 +57,6 @@ RunRow row_of(const PlannedRun& run, const StoredRun& stored) {
   return row;
 }
 
-}  // namespace
-
 std::optional<double> RunRow::figure(const std::string& key) const {
   const auto found =
       std::find_if(figures.begin(), figures.end(), [&](const auto& figure) { return figure.first == key; });
@@ -68,7 +68,7 @@ std::optional<double> RunRow::figure(const std::string& key) const {
 std::vector<RunRow> run_rows(const SweepPlan& plan, const std::vector<StoredRun>& stored) {
   std::vector<RunRow> rows;
   for (const StoredRun& run : stored) {
-    if (const PlannedRun* planned = plan.find(run.key)) rows.push_back(row_of(*planned, run));
+    if (const PlannedRun* planned = plan.find(run.key)) rows.push_back(run_row(*planned, run));
   }
   return rows;
 }
