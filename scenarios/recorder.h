@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <utility>
 
 #include "scenarios/run_record.h"
 
@@ -11,8 +13,12 @@ namespace plumbline {
 /// threw becomes the record's fault.
 class Recorder {
  public:
+  /// Told what was tracked in the image that vision worked on last.
+  using ImageListener = std::function<void(std::int64_t stamp_ns, const std::vector<TrackedFeature>&)>;
+
   /// The estimator must outlive the recorder.
-  Recorder(Estimator& estimator, std::int64_t duration_ns) : estimator_(estimator), duration_ns_(duration_ns) {}
+  Recorder(Estimator& estimator, std::int64_t duration_ns, ImageListener on_image = {})
+      : estimator_(estimator), duration_ns_(duration_ns), on_image_(std::move(on_image)) {}
 
   void deliver(const ImuSample& sample);
   void deliver(const CameraFrame& frame);
@@ -38,6 +44,7 @@ class Recorder {
   void add(Module module, std::int64_t stamp_ns, const Message& message);
   void lose(Module module, const std::string& reason);
   void take();
+  void tell_of_image(const std::vector<ModuleHealth>& health);
   void take_snapshot(const CameraFrame& frame);
   /// Calls the estimator; returns the wall time [s].
   template <typename Call>
@@ -45,6 +52,7 @@ class Recorder {
 
   Estimator& estimator_;
   std::int64_t duration_ns_ = 0;
+  ImageListener on_image_;
   RunRecord record_;
 };
 

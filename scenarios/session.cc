@@ -139,7 +139,7 @@ RunRecord run_session(const Scenario& scenario, const World& world, const RaySce
 RunRecord run_session(const Scenario& scenario, const World& world, const RayScene& rays, const SessionOptions& options,
                       Estimator& estimator) {
   const Trajectory world_from_body = make_body_trajectory(scenario, world, rays);
-  Recorder recorder(estimator, world_from_body.end_ns());
+  Recorder recorder(estimator, world_from_body.end_ns(), options.on_image);
   const std::unique_ptr<OwnBody> own_body = make_own_body(scenario);
   const Surroundings surroundings{world, rays, own_body.get()};
   const MessageSource source = options.threads > 1 ? make_read_ahead_source(scenario, surroundings, world_from_body)

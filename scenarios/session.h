@@ -16,6 +16,8 @@ struct SessionOptions {
   /// Called now and then with the simulated share done, [0, 1]; false ends the run there, its record so far kept and
   /// marked as interrupted.
   std::function<bool(double)> progress;
+  /// Called with what was tracked in each image that vision worked on.
+  std::function<void(std::int64_t stamp_ns, const std::vector<TrackedFeature>&)> on_image;
 };
 
 /// The world of a scenario, light level set. @throws InputError

@@ -20,6 +20,7 @@ int run_program(int argc, char** argv) {
   app.set_version_flag("--version", kVersion);
   app.require_subcommand(1);
   Action chosen;
+  add_calibrate_command(app, chosen);
   add_run_command(app, chosen);
   add_evaluate_command(app, chosen);
   add_host_command(app, chosen);

@@ -9,6 +9,7 @@ namespace plumbline {
 using Action = std::function<int()>;
 
 /// Each adds its verb to the program and sets `chosen` when the command line holds it.
+void add_calibrate_command(CLI::App& app, Action& chosen);
 void add_run_command(CLI::App& app, Action& chosen);
 void add_evaluate_command(CLI::App& app, Action& chosen);
 void add_host_command(CLI::App& app, Action& chosen);

@@ -13,8 +13,8 @@
 #include "tools/interrupt.h"
 #include "tools/lab/lab_table.h"
 #include "tools/output/run_files.h"
-#include "tools/outside/open_estimator.h"
 #include "tools/output/summary.h"
+#include "tools/outside/open_estimator.h"
 #include "tools/progress_line.h"
 
 namespace plumbline {
@@ -39,7 +39,9 @@ int threads_of(const RunArguments& arguments) {
 }
 
 /// A fault of ours ends the run, not its record: the directory says what happened.
-RunRecord simulate(const Scenario& scenario, const World& world, const RayScene& rays, int threads) {
+/// @param images  gets what was tracked in each, if it is not null
+RunRecord simulate(const Scenario& scenario, const World& world, const RayScene& rays, int threads,
+                   std::vector<TrackedImage>* images) {
   ProgressLine line(scenario.name);
   SessionOptions options;
   options.threads = threads;
@@ -47,6 +49,12 @@ RunRecord simulate(const Scenario& scenario, const World& world, const RayScene&
     line.update(share);
     return !interrupted();
   };
+  if (images != nullptr) {
+    options.on_image = [images](std::int64_t stamp_ns, const std::vector<TrackedFeature>& features) {
+      images->push_back({stamp_ns, {}});
+      for (const TrackedFeature& feature : features) images->back().pixels.push_back(feature.pixel);
+    };
+  }
   try {
     const auto estimator = open_estimator(scenario);
     return run_session(scenario, world, rays, options, *estimator);
@@ -69,6 +77,17 @@ CLI::Validator whole_number() {
       "WHOLE NUMBER");
 }
 
+void judge_detectors(const Scenario& scenario, const World& world, const RayScene& rays,
+                     const std::vector<TrackedImage>& images, const RunDirectory& directory) {
+  ProgressLine line(scenario.name + ", detectors");
+  const std::vector<ScanTrial> scans = run_degeneracy_lab(scenario, world, rays, [&](double share) {
+    line.update(share);
+    return !interrupted();
+  });
+  directory.write("detectors.csv", lab_csv(scans));
+  directory.write("truth_degeneracy.csv", truth_csv(scans, label_images(scenario, world, rays, images)));
+}
+
 int exit_code_of(const Verdict& verdict) { return interrupted() ? kExitInterrupted : verdict.exit_code(); }
 
 }  // namespace
@@ -83,15 +102,9 @@ int run_scenario(const RunArguments& arguments) {
   cv::setNumThreads(1);
   directory.open();
   catch_interrupts();
-  const RunRecord record = simulate(scenario, world, rays, threads);
-  if (arguments.detectors && !interrupted()) {
-    ProgressLine line(scenario.name + ", detectors");
-    const auto trials = run_degeneracy_lab(scenario, world, rays, [&](double share) {
-      line.update(share);
-      return !interrupted();
-    });
-    directory.write("detectors.csv", lab_csv(trials));
-  }
+  std::vector<TrackedImage> images;
+  const RunRecord record = simulate(scenario, world, rays, threads, arguments.detectors ? &images : nullptr);
+  if (arguments.detectors && !interrupted()) judge_detectors(scenario, world, rays, images, directory);
   const JudgedRun run = write_run(
       directory, scenario, record,
       [&](const Eigen::Vector3d& point) { return rays.distance_to_surface(point, kMapErrorLimit); },

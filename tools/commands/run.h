@@ -13,7 +13,7 @@ struct RunArguments {
   std::optional<std::uint64_t> seed;
   std::string estimator;   ///< empty: the scenario's
   std::string out;         ///< empty: out/NAME-SEED
-  bool detectors = false;  ///< writes detectors.csv, too
+  bool detectors = false;  ///< writes detectors.csv and truth_degeneracy.csv, too
   int threads = 0;         ///< 0: as many as the machine has
 };
 

@@ -66,6 +66,22 @@ std::string lab_csv(const std::vector<ScanTrial>& trials) {
   return text;
 }
 
+std::string truth_csv(const std::vector<ScanTrial>& scans, const std::vector<ImageTrial>& images) {
+  std::string text = "stamp_ns,module,features,degenerate";
+  for (int i = 1; i <= 6; ++i) text += ",excess_" + std::to_string(i);
+  text += '\n';
+  const auto add = [&](std::int64_t stamp_ns, const std::string& module, const DegeneracyLabel& label) {
+    text += std::to_string(stamp_ns) + module + std::to_string(label.degenerate());
+    for (int i = 0; i < 6; ++i) append(text, label.excess[i]);
+    text += '\n';
+  };
+  for (const ScanTrial& scan : scans) add(scan.stamp_ns, ",lidar,,", scan.label);
+  for (const ImageTrial& image : images) {
+    add(image.stamp_ns, ",vision," + std::to_string(image.features) + ",", image.label);
+  }
+  return text;
+}
+
 std::vector<LabRow> read_lab_csv(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::string line;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scenarios/degeneracy_lab.h"
+#include "scenarios/image_truth.h"
 
 namespace plumbline {
 
@@ -13,7 +14,11 @@ namespace plumbline {
 /// degenerate, angle_deg, and error_over_selected, error_over_all.
 std::string lab_csv(const std::vector<ScanTrial>& trials);
 
-/// A row of it, read back.
+/// truth_degeneracy.csv of a run: stamp_ns, module, features (of images), degenerate, excess_1 ... excess_6. Scans are
+/// stamped at their end, as the modules' own rows of degeneracy.csv are.
+std::string truth_csv(const std::vector<ScanTrial>& scans, const std::vector<ImageTrial>& images);
+
+/// A row of detectors.csv, read back.
 struct LabRow {
   double worst_excess = 0.0;
   int degenerate = 0;
