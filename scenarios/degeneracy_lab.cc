@@ -25,6 +25,12 @@ constexpr std::int64_t kWarmUp_ns = 1'000'000'000;
 constexpr double kGuess_m = 0.02;
 constexpr double kGuess_rad = 0.003;
 
+// Errors of the prediction that mitigations start from, per scan.
+constexpr double kReckoningScale = 0.01;
+constexpr double kReckoning_m = 0.003;
+constexpr double kReckoning_rad = 0.0005;
+constexpr int kSteps = 2;  // with the correspondences found anew for each
+
 // A selected point belongs to the true surface that the ray towards it meets within this; beyond, it is a mixed return.
 constexpr double kOnSurface_m = 0.15;
 constexpr std::size_t kLeastSurfaces = 30;
@@ -33,6 +39,53 @@ struct TruePlane {
   Eigen::Vector3d point_in_body;     ///< as measured
   Eigen::Vector3d normal_in_world;   ///< of the true surface
   Eigen::Vector3d surface_in_world;  ///< a point of it
+};
+
+ScanMatcherConfig one_step_at_a_time() {
+  ScanMatcherConfig config;
+  config.max_iterations = 1;
+  return config;
+}
+
+/// Scan matching that mitigates degeneracy in one way, on the map that it makes itself.
+class MitigatedMatching {
+ public:
+  MitigatedMatching(Mitigation mitigation, const Calibration& calibration)
+      : mitigation_(mitigation),
+        range_sigma_m_(calibration.lidar_range_sigma_m),
+        matcher_(calibration, one_step_at_a_time(), /*remapping=*/true) {}
+
+  void start(const FeatureCloud& features, const Pose& world_from_body) {
+    pose_ = world_from_body;
+    matcher_.insert(features, pose_, 0.0);
+  }
+
+  /// @param covariance  of the predicted motion
+  void add(const FeatureCloud& features, const Pose& last_from_body, const Matrix6d& covariance) {
+    const Pose predicted = pose_ * last_from_body;
+    Pose found = predicted;
+    for (int i = 0; i < kSteps; ++i) {
+      matcher_.match(features, {found, Matrix6d::Identity()});
+      StepContext context;
+      context.threshold = ScanMatcherConfig{}.degeneracy_threshold;
+      context.range_sigma_m = range_sigma_m_;
+      context.moved = predicted.local(found);
+      context.prior_covariance = covariance;
+      found = found.retract(mitigated_step(mitigation_, matcher_.rows(), context));
+    }
+    path_m_ += last_from_body.translation.norm();
+    pose_ = found;
+    matcher_.insert(features, pose_, path_m_);
+  }
+
+  const Pose& pose() const { return pose_; }
+
+ private:
+  Mitigation mitigation_;
+  double range_sigma_m_;
+  ScanMatcher matcher_;
+  Pose pose_;
+  double path_m_ = 0.0;
 };
 
 class Lab {
@@ -46,18 +99,21 @@ class Lab {
         pack_from_body_(Eigen::Quaterniond::Identity(), scenario.rig.imu.position_in_body),
         truth_(scenario.rig.lidar, calibration_.body_from_lidar),
         matcher_(calibration_, ScanMatcherConfig{}, /*remapping=*/true),
-        guesses_(scenario.seed, "degeneracy lab") {}
+        guesses_(scenario.seed, "degeneracy lab"),
+        reckoning_(scenario.seed, "degeneracy lab reckoning") {
+    for (const Mitigation mitigation : kMitigations) matchings_.emplace_back(mitigation, calibration_);
+  }
 
-  std::vector<ScanTrial> run(const std::function<bool(double)>& progress) {
+  LabRun run(const std::function<bool(double)>& progress) {
     ScanStream scans(scenario_, surroundings_, world_from_pack_);
-    std::vector<ScanTrial> trials;
+    LabRun run;
     while (const auto message = scans.next()) {
       const auto& scan = std::get<LidarScan>(message->payload);
-      if (auto trial = take(scan)) trials.push_back(std::move(*trial));
+      take(scan, run);
       const double share = static_cast<double>(scan.end_ns) / static_cast<double>(world_from_pack_.end_ns());
       if (progress && !progress(share)) break;
     }
-    return trials;
+    return run;
   }
 
  private:
@@ -83,21 +139,39 @@ class Lab {
     return pose.retract(off);
   }
 
-  std::optional<ScanTrial> take(const LidarScan& scan) {
+  void take(const LidarScan& scan, LabRun& run) {
     const PoseTrack track = true_track(scan);
     const Pose world_from_body = track.at(scan.end_ns);
     const auto points = deskew(scan, track, calibration_.body_from_lidar, scan.end_ns);
     const FeatureCloud features = extract_features(scan, points, calibration_);
     const Pose guess = guess_near(world_from_body);
-    std::optional<ScanTrial> trial;
     if (scan.stamp_ns >= kWarmUp_ns) {
       matcher_.match(features, {guess, Matrix6d::Identity()});
-      trial = judged(scan, track);
+      run.scans.push_back(judged(scan, track));
     }
+    mitigate(features, world_from_body);
+    run.truth.push_back({scan.end_ns, world_from_body});
+    for (std::size_t i = 0; i < matchings_.size(); ++i) run.estimates[i].push_back({scan.end_ns, matchings_[i].pose()});
     path_m_ += last_ ? (world_from_body.translation - last_->translation).norm() : 0.0;
     last_ = world_from_body;
     matcher_.insert(features, world_from_body, path_m_);
-    return trial;
+  }
+
+  void mitigate(const FeatureCloud& features, const Pose& world_from_body) {
+    if (!last_) {
+      for (MitigatedMatching& matching : matchings_) matching.start(features, world_from_body);
+      return;
+    }
+    Pose moved = last_->inverse() * world_from_body;
+    moved.translation *= 1.0 + kReckoningScale;
+    Vector6d error;
+    for (int i = 0; i < 6; ++i) error[i] = (i < 3 ? kReckoning_rad : kReckoning_m) * reckoning_.gaussian();
+    moved = moved.retract(error);
+    const double sigma_m = std::hypot(kReckoning_m, kReckoningScale * moved.translation.norm());
+    Matrix6d covariance = Matrix6d::Zero();
+    covariance.diagonal() << Eigen::Vector3d::Constant(kReckoning_rad * kReckoning_rad),
+        Eigen::Vector3d::Constant(sigma_m * sigma_m);
+    for (MitigatedMatching& matching : matchings_) matching.add(features, moved, covariance);
   }
 
   ScanTrial judged(const LidarScan& scan, const PoseTrack& track) {
@@ -192,6 +266,8 @@ class Lab {
   const TrueReturns truth_;
   ScanMatcher matcher_;
   RandomStream guesses_;
+  RandomStream reckoning_;
+  std::vector<MitigatedMatching> matchings_;  ///< as kMitigations
   double path_m_ = 0.0;
   std::optional<Pose> last_;
 };
@@ -216,8 +292,8 @@ double largest_principal_angle(const std::vector<Vector6d>& found, const std::ve
   return std::acos(std::clamp(least, -1.0, 1.0));
 }
 
-std::vector<ScanTrial> run_degeneracy_lab(const Scenario& scenario, const World& world, const RayScene& rays,
-                                          const std::function<bool(double)>& progress) {
+LabRun run_degeneracy_lab(const Scenario& scenario, const World& world, const RayScene& rays,
+                          const std::function<bool(double)>& progress) {
   return Lab(scenario, world, rays).run(progress);
 }
 

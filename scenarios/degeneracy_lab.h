@@ -6,7 +6,9 @@
 #include <optional>
 #include <vector>
 
+#include "estimator/geometry/interpolation.h"
 #include "estimator/solver/detectors.h"
+#include "estimator/solver/mitigations.h"
 #include "scenarios/scenario.h"
 #include "sensors/information.h"
 #include "sim/ray_scene.h"
@@ -35,14 +37,22 @@ struct ScanTrial {
   std::optional<double> error_over_all;
 };
 
+struct LabRun {
+  std::vector<ScanTrial> scans;
+  std::vector<PoseTrack::Stamped> truth;  ///< world_from_body at each scan's end, from the first scan on
+  /// As kMitigations: what scan matching that mitigates so makes of it, on a map of its own, from predictions by the
+  /// true motion between scans with errors as dead reckoning has them (1 % of the way, millimetres, 0.03 degrees).
+  std::array<std::vector<PoseTrack::Stamped>, kMitigations.size()> estimates;
+};
+
 /// Moves a scenario's lidar along its true path, matches its (noisy) scans by the estimator's own scan matching on a
 /// map kept at the true poses, each from a guess some centimetres off, and asks every detector. No camera, no IMU and
 /// no drift take part, so that detectors are judged on the geometry alone. Scans before the map is a second old are
-/// left out.
+/// left out of `scans`.
 /// @param progress  called with the share done; false ends it there
 /// @throws InputError as run_session
-std::vector<ScanTrial> run_degeneracy_lab(const Scenario& scenario, const World& world, const RayScene& rays,
-                                          const std::function<bool(double)>& progress);
+LabRun run_degeneracy_lab(const Scenario& scenario, const World& world, const RayScene& rays,
+                          const std::function<bool(double)>& progress);
 
 /// The largest principal angle between the spans of `found` and `truth`, of which the first may be the smaller.
 /// @param range_m  scales rotations to lengths

@@ -80,12 +80,13 @@ CLI::Validator whole_number() {
 void judge_detectors(const Scenario& scenario, const World& world, const RayScene& rays,
                      const std::vector<TrackedImage>& images, const RunDirectory& directory) {
   ProgressLine line(scenario.name + ", detectors");
-  const std::vector<ScanTrial> scans = run_degeneracy_lab(scenario, world, rays, [&](double share) {
+  const LabRun lab = run_degeneracy_lab(scenario, world, rays, [&](double share) {
     line.update(share);
     return !interrupted();
   });
-  directory.write("detectors.csv", lab_csv(scans));
-  directory.write("truth_degeneracy.csv", truth_csv(scans, label_images(scenario, world, rays, images)));
+  directory.write("detectors.csv", lab_csv(lab.scans));
+  directory.write("mitigations.csv", mitigations_csv(lab));
+  directory.write("truth_degeneracy.csv", truth_csv(lab.scans, label_images(scenario, world, rays, images)));
 }
 
 int exit_code_of(const Verdict& verdict) { return interrupted() ? kExitInterrupted : verdict.exit_code(); }

@@ -1,15 +1,18 @@
 #include "tools/lab/lab_table.h"
 
+#include <algorithm>
 #include <charconv>
 #include <fstream>
 #include <numbers>
 
+#include "tools/evaluation/figures.h"
 #include "tools/formats/number_text.h"
 
 namespace plumbline {
 namespace {
 
 constexpr int kDigits = 9;
+constexpr const char* kMitigationsHeader = "mitigation,drift_percent,progress_ratio,degenerate\n";
 constexpr std::size_t kColumns = 1 + 6 + 2 + 2 * kDetectors.size() + 2;
 
 std::string header() {
@@ -80,6 +83,36 @@ std::string truth_csv(const std::vector<ScanTrial>& scans, const std::vector<Ima
     add(image.stamp_ns, ",vision," + std::to_string(image.features) + ",", image.label);
   }
   return text;
+}
+
+std::string mitigations_csv(const LabRun& lab) {
+  const auto degenerate = std::count_if(lab.scans.begin(), lab.scans.end(), [](const ScanTrial& scan) {
+    return scan.label.worst() == DegeneracyLabel::Class::kDegenerate;
+  });
+  std::string text = kMitigationsHeader;
+  for (std::size_t i = 0; i < kMitigations.size(); ++i) {
+    const TrajectoryFigures figures = trajectory_figures(lab.truth, lab.estimates[i]);
+    text += to_string(kMitigations[i]);
+    append(text, figures.drift_percent);
+    append(text, figures.progress.whole);
+    (text += ',') += std::to_string(degenerate);
+    text += '\n';
+  }
+  return text;
+}
+
+std::vector<MitigationRow> read_mitigations_csv(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::string line;
+  if (!std::getline(file, line) || line + "\n" != kMitigationsHeader) return {};
+  std::vector<MitigationRow> rows;
+  while (std::getline(file, line)) {
+    const std::size_t comma = line.find(',');
+    const auto cells = cells_of(comma == std::string::npos ? "" : line.substr(comma + 1));
+    if (cells.size() != 3 || !cells[2]) return {};
+    rows.push_back({line.substr(0, comma), cells[0], cells[1], static_cast<int>(*cells[2])});
+  }
+  return rows;
 }
 
 std::vector<LabRow> read_lab_csv(const std::filesystem::path& path) {

@@ -18,6 +18,18 @@ std::string lab_csv(const std::vector<ScanTrial>& trials);
 /// stamped at their end, as the modules' own rows of degeneracy.csv are.
 std::string truth_csv(const std::vector<ScanTrial>& scans, const std::vector<ImageTrial>& images);
 
+/// mitigations.csv of a run: mitigation, drift_percent, progress_ratio, degenerate (how many scans were).
+std::string mitigations_csv(const LabRun& lab);
+
+struct MitigationRow {
+  std::string mitigation;
+  std::optional<double> drift_percent;
+  std::optional<double> progress_ratio;
+  int degenerate = 0;
+};
+/// @returns nothing where there is no such file, or it is not one of ours
+std::vector<MitigationRow> read_mitigations_csv(const std::filesystem::path& path);
+
 /// A row of detectors.csv, read back.
 struct LabRow {
   double worst_excess = 0.0;
