@@ -1,7 +1,9 @@
 #include "tools/lab/lab_report.h"
 
 #include <algorithm>
+#include <array>
 
+#include "tools/evaluation/quantile.h"
 #include "tools/formats/number_text.h"
 #include "tools/report/markup.h"
 #include "tools/report/point_chart.h"
@@ -76,11 +78,54 @@ std::string detector_table(const std::vector<DetectorScore>& scores) {
   return html + "</tbody></table></div>";
 }
 
+std::vector<MitigationFigures> compare_mitigations(const std::vector<std::vector<MitigationRow>>& runs) {
+  std::vector<MitigationFigures> all;
+  for (const Mitigation mitigation : kMitigations) {
+    MitigationFigures figures;
+    figures.mitigation = to_string(mitigation);
+    std::array<std::vector<double>, 2> drifts;  // of runs without degenerate scans, and with
+    std::array<std::vector<double>, 2> progresses;
+    for (const std::vector<MitigationRow>& run : runs) {
+      for (const MitigationRow& row : run) {
+        if (row.mitigation != figures.mitigation) continue;
+        const std::size_t kind = row.degenerate > 0 ? 1 : 0;
+        (kind == 1 ? figures.degenerate_runs : figures.well_runs) += 1;
+        if (row.drift_percent) drifts[kind].push_back(*row.drift_percent);
+        if (row.progress_ratio) progresses[kind].push_back(*row.progress_ratio);
+      }
+    }
+    figures.well_drift_percent = quantile(drifts[0], 0.5);
+    figures.well_progress = quantile(progresses[0], 0.5);
+    figures.degenerate_drift_percent = quantile(drifts[1], 0.5);
+    figures.degenerate_progress = quantile(progresses[1], 0.5);
+    all.push_back(std::move(figures));
+  }
+  return all;
+}
+
+std::string mitigation_table(const std::vector<MitigationFigures>& mitigations) {
+  std::string html =
+      "<h2>Mitigations</h2><p class=\"note\">Scan matching alone, from a prediction with the errors of dead reckoning "
+      "(1 % of the way and a few millimetres a scan): medians over the runs in which some scan is degenerate, and over "
+      "the others.</p><div class=\"wide\"><table><thead><tr><th>mitigation</th><th>drift where degenerate [%]</th>"
+      "<th>progress ratio there</th><th>drift elsewhere [%]</th><th>progress ratio there</th></tr></thead><tbody>";
+  for (const MitigationFigures& one : mitigations) {
+    html += "<tr><td>" + escape_markup(one.mitigation) + "</td><td>" + shown(one.degenerate_drift_percent) +
+            "</td><td>" + shown(one.degenerate_progress) + "</td><td>" + shown(one.well_drift_percent) + "</td><td>" +
+            shown(one.well_progress) + "</td></tr>";
+  }
+  return html + "</tbody></table></div>";
+}
+
 }  // namespace
 
 LabFindings lab_findings(const SweepPlan& plan, const std::filesystem::path& root) {
   std::vector<std::vector<LabRow>> runs;
-  for (const PlannedRun& run : plan.runs) runs.push_back(read_lab_csv(root / "runs" / run.key / "detectors.csv"));
+  std::vector<std::vector<MitigationRow>> mitigated;
+  for (const PlannedRun& run : plan.runs) {
+    runs.push_back(read_lab_csv(root / "runs" / run.key / "detectors.csv"));
+    mitigated.push_back(read_mitigations_csv(root / "runs" / run.key / "mitigations.csv"));
+  }
   LabFindings findings;
   for (std::size_t i = 0; i < kDetectors.size(); ++i) {
     const bool wanted =
@@ -88,6 +133,7 @@ LabFindings lab_findings(const SweepPlan& plan, const std::filesystem::path& roo
     if (wanted) findings.detectors.push_back(score_detector(i, runs));
   }
   findings.registration = registration_efficiency(runs);
+  findings.mitigations = compare_mitigations(mitigated);
   return findings;
 }
 
@@ -109,6 +155,18 @@ std::string detectors_csv(const LabFindings& findings) {
          number(findings.registration.over_selected) + "," + number(findings.registration.over_all) + "\n";
 }
 
+std::string mitigations_csv(const LabFindings& findings) {
+  std::string text =
+      "mitigation,degenerate_runs,degenerate_drift_percent,degenerate_progress_ratio,well_runs,well_drift_percent,"
+      "well_progress_ratio\n";
+  for (const MitigationFigures& one : findings.mitigations) {
+    text += one.mitigation + "," + std::to_string(one.degenerate_runs) + "," + number(one.degenerate_drift_percent) +
+            "," + number(one.degenerate_progress) + "," + std::to_string(one.well_runs) + "," +
+            number(one.well_drift_percent) + "," + number(one.well_progress) + "\n";
+  }
+  return text;
+}
+
 std::string lab_section(const LabFindings& findings, std::vector<Drawing>& charts) {
   if (findings.detectors.empty()) return {};
   const DetectorScore& any = findings.detectors.front();
@@ -127,7 +185,7 @@ std::string lab_section(const LabFindings& findings, std::vector<Drawing>& chart
   }
   charts.push_back(roc_chart(findings.detectors));
   return "<h2>Degeneracy detectors</h2><p class=\"note\">" + escape_markup(note) + "</p>" + figure_html(charts.back()) +
-         detector_table(findings.detectors);
+         detector_table(findings.detectors) + mitigation_table(findings.mitigations);
 }
 
 }  // namespace plumbline
