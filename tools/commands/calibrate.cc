@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 
+#include "estimator/solver/detectors.h"
 #include "scenarios/input_error.h"
 #include "tools/commands/command.h"
 #include "tools/commands/study_options.h"
