@@ -52,7 +52,7 @@ struct Odometry {
 
 /// A feature of the newest image, for pictures of what vision does.
 struct TrackedFeature {
-  enum class Depth { kNone, kMeasured, kTriangulated };  ///< measured: by lidar, depth image or stereo
+  enum class Depth { kNone, kLidar, kTriangulated };
   Eigen::Vector2f pixel = Eigen::Vector2f::Zero();           ///< [px], newest frame
   Eigen::Vector2f keyframe_pixel = Eigen::Vector2f::Zero();  ///< [px], where the key-frame saw it
   Depth depth = Depth::kNone;

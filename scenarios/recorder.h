@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "scenarios/run_record.h"
+#include "scenarios/sensor_message.h"
 
 namespace plumbline {
 
@@ -16,21 +17,17 @@ class Recorder {
   /// Told what was tracked in the image that vision worked on last.
   using ImageListener = std::function<void(std::int64_t stamp_ns, const std::vector<TrackedFeature>&)>;
 
-  /// The estimator must outlive the recorder.
-  Recorder(Estimator& estimator, std::int64_t duration_ns, ImageListener on_image = {})
-      : estimator_(estimator), duration_ns_(duration_ns), on_image_(std::move(on_image)) {}
+  /// The estimator must outlive the recorder. @param start_ns, end_ns  the run's span
+  Recorder(Estimator& estimator, std::int64_t start_ns, std::int64_t end_ns, ImageListener on_image = {})
+      : estimator_(estimator), start_ns_(start_ns), end_ns_(end_ns), on_image_(std::move(on_image)) {}
 
+  /// Hands a message over, or counts it if it was lost on the way.
+  void deliver(const SensorMessage& message);
   void deliver(const ImuSample& sample);
   void deliver(const CameraFrame& frame);
   void deliver(const DepthFrame& frame);
   void deliver(const LidarScan& scan);
-  /// Counts a message that never arrived.
-  void lose(const ImuSample&, const std::string& reason) { lose(Module::kImu, reason); }
-  void lose(const CameraFrame&, const std::string& reason) { lose(Module::kVision, reason); }
-  void lose(const DepthFrame&, const std::string& reason) { lose(Module::kVision, reason); }
-  void lose(const LidarScan&, const std::string& reason) { lose(Module::kLidar, reason); }
   void add_truth(std::int64_t stamp_ns, const Pose& world_from_body);
-  void add_sensors_wall(double wall_s) { record_.sensors_wall_s += wall_s; }
 
   /// Ends the run before its time.
   void set_fault(const std::string& fault) { record_.fault = fault; }
@@ -51,7 +48,8 @@ class Recorder {
   double guarded(Call call);
 
   Estimator& estimator_;
-  std::int64_t duration_ns_ = 0;
+  std::int64_t start_ns_ = 0;
+  std::int64_t end_ns_ = 0;
   ImageListener on_image_;
   RunRecord record_;
 };

@@ -39,6 +39,18 @@ void read_scenario(ConfigReader& reader, Scenario& scenario) {
 
 }  // namespace
 
+std::string digest_of(const std::string& text) {
+  // FNV-1a, 64 bits.
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const char c : text) {
+    hash ^= static_cast<unsigned char>(c);
+    hash *= 0x100000001b3ULL;
+  }
+  char digits[17];
+  std::snprintf(digits, sizeof(digits), "%016llx", static_cast<unsigned long long>(hash));
+  return digits;
+}
+
 Scenario load_scenario(const std::filesystem::path& path, const std::vector<std::string>& overrides,
                        std::optional<std::uint64_t> seed) {
   ConfigNode keys = read_scenario_files(path, overrides);

@@ -75,6 +75,7 @@ struct RigConfig {
   int decimation = 1;    ///< 2 drops every other message of all sensors
   bool own_body = true;  ///< sensors see the vehicle that carries them
   Pose vehicle_from_pack;
+  bool has_lidar = true;
   Pose pack_from_lidar;
   LidarModel lidar;
   MountedCamera camera;                            ///< the estimator's: camera 0
@@ -108,6 +109,9 @@ struct Scenario {
   std::vector<Expectation> expect;
   std::optional<std::string> expect_status;
 };
+
+/// Sixteen hexadecimal digits that tell one text from another, the same over machines and years.
+std::string digest_of(const std::string& text);
 
 /// Reads a scenario with its bases and command-line overrides ("key.path=value").
 /// @throws InputError for anything missing, malformed, unknown or impossible.

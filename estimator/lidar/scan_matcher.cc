@@ -190,7 +190,8 @@ ScanMatcher::ScanMatcher(ScanMatcher&&) noexcept = default;
 ScanMatcher& ScanMatcher::operator=(ScanMatcher&&) noexcept = default;
 ScanMatcher::~ScanMatcher() = default;
 
-SolveResult ScanMatcher::match(const FeatureCloud& features, const PosePrior& world_from_body) {
+SolveResult ScanMatcher::match(const FeatureCloud& features, const PosePrior& world_from_body,
+                               const Linearizer& further_rows) {
   Impl& m = *impl_;
   const FeatureCloud used = {every_nth(features.edges, m.config.edge_budget),
                              pick(features.planes, sample_by_direction(features.planes, m.config.plane_budget))};
@@ -203,9 +204,11 @@ SolveResult ScanMatcher::match(const FeatureCloud& features, const PosePrior& wo
       world_from_body.mean, world_from_body,
       [&](const Pose& pose, ResidualRows& rows) {
         constraints.linearize(pose, rows);
-        if (!m.rows.empty()) return;
-        m.rows = constraints.match_rows(pose);
-        planes = constraints.plane_count();
+        if (m.rows.empty()) {
+          m.rows = constraints.match_rows(pose);
+          planes = constraints.plane_count();
+        }
+        if (further_rows) further_rows(pose, rows);
       },
       m.options);
   for (std::size_t i = 0; i < m.rows.size(); ++i) {

@@ -38,7 +38,9 @@ class ScanMatcher {
   ~ScanMatcher();
 
   /// Solves for world_from_body; starts at the prior's mean. With an empty map nothing is well-conditioned.
-  SolveResult match(const FeatureCloud& features_in_body, const PosePrior& world_from_body);
+  /// @param further_rows  of other sensors that take part in the same problem, after the scan's own; empty: none
+  SolveResult match(const FeatureCloud& features_in_body, const PosePrior& world_from_body,
+                    const Linearizer& further_rows = {});
 
   /// The rows of the last match as they were at its guess, with their robust weights: what detectors of degeneracy see.
   const std::vector<MatchRow>& rows() const;

@@ -55,8 +55,10 @@ Demo::Demo(const Calibration& calibration, const EstimatorConfig& config, const 
       stages_(stages),
       gate_(clocked_use(calibration, config)),
       vision_(calibration, vision_config(stages), config.remapping),
+      sweeps_(calibration, config.remapping),
       matcher_(calibration, ScanMatcherConfig{}, config.remapping) {
   stages_.scan_matching = stages.scan_matching && config.lidar_enabled;
+  stages_.sweep_refinement = stages.sweep_refinement && config.lidar_enabled;
 }
 
 void Demo::add(const ImuSample& received) {
@@ -73,8 +75,13 @@ void Demo::add(const ImuSample& received) {
 void Demo::add(const CameraFrame& frame) { gate_.admit(frame); }
 void Demo::add(const DepthFrame& frame) { gate_.admit(frame); }
 void Demo::add(const LidarScan& scan) { gate_.admit(scan); }
+void Demo::add(const PointFrame& frame) { gate_.admit(frame); }
 
-void Demo::handle(const CameraFrame& frame) {
+void Demo::handle(const CameraFrame& frame) { see(frame); }
+void Demo::handle(const PointFrame& frame) { see(frame); }
+
+template <typename Frame>
+void Demo::see(const Frame& frame) {
   const StopWatch watch;
   if (frame.camera_id != 0) {
     gate_.count_used(Module::kVision);
@@ -82,17 +89,16 @@ void Demo::handle(const CameraFrame& frame) {
   }
   if (!odometry_.empty() && frame.stamp_ns <= odometry_.last_ns()) return gate_.drop(Module::kVision, "late");
   gate_.count_used(Module::kVision);
+  const bool has_previous = vision_.started();
   const std::int64_t previous_ns = vision_.newest_ns();
   const FrameToFrame::Step step = vision_.process(frame);
   odometry_.push(frame.stamp_ns, vision_.odometry_from_body());
   odometry_.forget_before(frame.stamp_ns - kTrackLength_ns);
-  if (previous_ns != 0) note(step, previous_ns);
+  if (has_previous) note(step, previous_ns);
   use_scans(frame.stamp_ns);
   adjust_when_due();
   health_.push_back(health_of(frame.stamp_ns, Module::kVision, step.solved, step.predicted, watch.seconds()));
 }
-
-void Demo::handle(const PointFrame&) {}
 
 void Demo::handle(const DepthFrame& frame) {
   gate_.count_used(Module::kVision);
@@ -130,14 +136,12 @@ void Demo::adjust_when_due() {
 
 void Demo::use_scans(std::int64_t now_ns) {
   while (!scans_.empty()) {
+    const std::int64_t end_ns = scans_.front().end_ns;
+    const bool covered = !odometry_.empty() && end_ns <= odometry_.last_ns();
+    if (!covered && now_ns < end_ns + kLongestWait_ns) return;
+    if (!covered && vision_.started()) odometry_.push(end_ns, vision_.predicted(end_ns));
     const LidarScan scan = std::move(scans_.front());
-    const bool covered = !odometry_.empty() && scan.end_ns <= odometry_.last_ns();
-    if (!covered && now_ns < scan.end_ns + kLongestWait_ns) {
-      scans_.front() = scan;
-      return;
-    }
     scans_.pop_front();
-    if (!covered && vision_.started()) odometry_.push(scan.end_ns, vision_.predicted(scan.end_ns));
     use(scan);
   }
 }
@@ -150,24 +154,41 @@ void Demo::use(const LidarScan& scan) {
   gate_.count_used(Module::kLidar);
   const auto points_in_body = deskew(scan, odometry_, calibration_.body_from_lidar, scan.end_ns);
   vision_.add_depth_points(scan.end_ns, points_in_body, odometry_.at(scan.end_ns));
-  if (stages_.scan_matching) refine_with(scan, points_in_body);
-}
-
-void Demo::refine_with(const LidarScan& scan, const std::vector<Eigen::Vector3f>& points_in_body) {
+  if (stages_.sweep_refinement) return refine_with_sweep(scan);
+  if (!stages_.scan_matching) return;
   const StopWatch watch;
   const FeatureCloud features = extract_features(scan, points_in_body, calibration_);
-  const Pose& odometry_from_body = odometry_.at(scan.end_ns);
+  match(features, scan.end_ns, integration_.world_from_body(odometry_.at(scan.end_ns)), watch.seconds());
+}
+
+void Demo::refine_with_sweep(const LidarScan& part) {
+  const StopWatch watch;
+  const auto sweep = sweeps_.add(part, odometry_, since_match_covariance());
+  if (!sweep) return;
+  if (sweep->solved.features > 0) {
+    health_.push_back(health_of(sweep->end_ns, Module::kLidar, sweep->solved, sweep->solved.pose, watch.seconds()));
+  }
+  match(sweep->features, sweep->end_ns, world_from_last_match_ * sweep->last_end_from_end, 0.0);
+}
+
+/// @param predicted  world_from_body at the features' time
+/// @param seconds  already spent on them
+void Demo::match(const FeatureCloud& features, std::int64_t stamp_ns, const Pose& predicted, double seconds) {
+  const StopWatch watch;
+  const SolveResult solved = matcher_.match(features, {predicted, since_match_covariance()});
+  integration_.refine(solved.pose, odometry_.at(stamp_ns));
+  path_m_ += (solved.pose.translation - world_from_last_match_.translation).norm();
+  world_from_last_match_ = solved.pose;
+  matcher_.insert(features, solved.pose, path_m_);
+  if (solved.spectrum.well_conditioned == 6) since_match_.setZero();
+  health_.push_back(health_of(stamp_ns, Module::kLidar, solved, predicted, seconds + watch.seconds()));
+}
+
+Matrix6d Demo::since_match_covariance() const {
   Matrix6d covariance = since_match_;
   covariance.diagonal().head<3>().array() += kMapRotationSigma * kMapRotationSigma;
   covariance.diagonal().tail<3>().array() += kMapTranslationSigma_m * kMapTranslationSigma_m;
-  const Pose predicted = integration_.world_from_body(odometry_from_body);
-  const SolveResult solved = matcher_.match(features, {predicted, covariance});
-  integration_.refine(solved.pose, odometry_from_body);
-  path_m_ += (solved.pose.translation - last_scan_position_).norm();
-  last_scan_position_ = solved.pose.translation;
-  matcher_.insert(features, solved.pose, path_m_);
-  if (solved.spectrum.well_conditioned == 6) since_match_.setZero();
-  health_.push_back(health_of(scan.end_ns, Module::kLidar, solved, predicted, watch.seconds()));
+  return covariance;
 }
 
 Odometry Demo::output(std::int64_t stamp_ns) {

@@ -7,6 +7,7 @@
 #include "estimator/estimator.h"
 #include "estimator/geometry/interpolation.h"
 #include "estimator/lidar/scan_matcher.h"
+#include "estimator/lidar/sweep_refinement.h"
 #include "estimator/pipeline/message_gate.h"
 #include "estimator/pipeline/transform_integration.h"
 #include "estimator/vision/bundle_adjustment.h"
@@ -17,8 +18,9 @@ namespace plumbline {
 /// The stages beyond frame-to-frame motion, and what features it may use.
 struct DemoConfig {
   bool bundle_adjustment = true;
-  bool map_depth_only = false;  ///< the baseline that leaves features without measured depth unused
-  bool scan_matching = false;   ///< refine every sweep against the map (thesis ch. 6)
+  bool map_depth_only = false;    ///< the baseline that leaves features without measured depth unused
+  bool scan_matching = false;     ///< refine every scan against the map (thesis ch. 6)
+  bool sweep_refinement = false;  ///< before that, against the sweep before; whole sweeps are matched (thesis ch. 7)
 };
 
 /// DEMO: visual odometry with depth from lidar, depth images or stereo (thesis ch. 3). It needs no IMU; the samples
@@ -31,6 +33,8 @@ class Demo final : public Estimator {
   void add(const CameraFrame& frame) override;
   void add(const DepthFrame& frame) override;
   void add(const LidarScan& scan) override;
+  /// Points that someone else found and identified, in place of a camera's images.
+  void add(const PointFrame& frame);
   std::vector<Odometry> take() override;
   MessageCounts counts(Module module) const override;
   std::vector<TrackedFeature> features() const override;
@@ -41,11 +45,15 @@ class Demo final : public Estimator {
   void handle(const PointFrame& frame);
   void handle(const DepthFrame& frame);
   void handle(const LidarScan& scan);
+  template <typename Frame>
+  void see(const Frame& frame);
   void note(const FrameToFrame::Step& step, std::int64_t previous_ns);
   void adjust_when_due();
   void use_scans(std::int64_t now_ns);
   void use(const LidarScan& scan);
-  void refine_with(const LidarScan& scan, const std::vector<Eigen::Vector3f>& points_in_body);
+  void refine_with_sweep(const LidarScan& part);
+  void match(const FeatureCloud& features, std::int64_t stamp_ns, const Pose& predicted, double seconds);
+  Matrix6d since_match_covariance() const;
   Odometry output(std::int64_t stamp_ns);
 
   Calibration calibration_;
@@ -54,6 +62,7 @@ class Demo final : public Estimator {
   BundleConfig bundle_config_;
   MessageGate gate_;
   FrameToFrame vision_;
+  SweepRefinement sweeps_;
   ScanMatcher matcher_;
   TransformIntegration integration_;
 
@@ -69,7 +78,7 @@ class Demo final : public Estimator {
   std::int64_t covariance_ns_ = 0;
   std::int64_t output_ns_ = 0;
   double path_m_ = 0.0;
-  Eigen::Vector3d last_scan_position_ = Eigen::Vector3d::Zero();
+  Pose world_from_last_match_;
 
   std::vector<Odometry> outputs_;
   std::vector<ModuleHealth> health_;

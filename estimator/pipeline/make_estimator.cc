@@ -3,6 +3,7 @@
 
 #include "estimator/estimator.h"
 #include "estimator/pipeline/demo.h"
+#include "estimator/pipeline/loam.h"
 #include "estimator/pipeline/vloam.h"
 
 namespace plumbline {
@@ -36,10 +37,14 @@ const std::vector<EstimatorInfo>& estimator_library() {
       {"vloam", "IMU prediction, visual odometry with lidar depth, scan matching (V-LOAM)"},
       {"vio", "IMU prediction and visual odometry with lidar depth; scan matching off"},
       {"imu_lidar", "IMU prediction and scan matching; vision off"},
+      {"joint", "IMU prediction, and one problem of lidar and camera rows at every scan"},
       {"imu", "dead reckoning"},
+      {"loam", "lidar odometry within each sweep and mapping once a sweep, with or without the IMU (LOAM)"},
+      {"loam_imu_orientation", "the same with the attitude as the gyro integrates it; only translation is estimated"},
       {"demo", "frame-to-frame visual odometry with depth and bundle adjustment, no IMU (DEMO)"},
       {"demo_no_ba", "the same without bundle adjustment"},
       {"demo_matched", "frame-to-frame visual odometry and scan matching, no IMU (DEMO + scan matching)"},
+      {"demo_loam", "frame-to-frame visual odometry, refined sweep to sweep and sweep to map, no IMU (three stages)"},
       {"vo_depth_only", "frame-to-frame visual odometry that uses only features with measured depth, no IMU"},
   };
   return library;
@@ -52,7 +57,8 @@ std::unique_ptr<Estimator> make_vloam(const std::string& name, const Calibration
   EstimatorConfig chosen = config;
   if (name == "vio" || name == "imu") chosen.lidar_enabled = false;
   if (name == "imu_lidar" || name == "imu") chosen.vision_enabled = false;
-  return std::make_unique<Vloam>(calibration, chosen);
+  const Coupling coupling = name == "joint" ? Coupling::kJoint : Coupling::kSequential;
+  return std::make_unique<Vloam>(calibration, chosen, VisionConfig{}, ScanMatcherConfig{}, coupling);
 }
 
 std::unique_ptr<Estimator> make_demo(const std::string& name, const Calibration& calibration,
@@ -62,7 +68,14 @@ std::unique_ptr<Estimator> make_demo(const std::string& name, const Calibration&
   stages.bundle_adjustment = name == "demo";
   stages.map_depth_only = name == "vo_depth_only";
   stages.scan_matching = name == "demo_matched";
+  stages.sweep_refinement = name == "demo_loam";
   return std::make_unique<Demo>(calibration, config, stages);
+}
+
+std::unique_ptr<Estimator> make_loam(const std::string& name, const Calibration& calibration,
+                                     const EstimatorConfig& config) {
+  if (name == "loam_imu_orientation") return std::make_unique<Loam>(calibration, config, ImuUse::kOrientation);
+  return std::make_unique<Loam>(calibration, config, config.imu_enabled ? ImuUse::kFull : ImuUse::kNone);
 }
 
 void validate_or_throw(const std::string& name, const Calibration& calibration) {
@@ -83,6 +96,7 @@ void validate_or_throw(const std::string& name, const Calibration& calibration) 
 std::unique_ptr<Estimator> make_estimator(const std::string& name, const Calibration& calibration,
                                           const EstimatorConfig& config) {
   validate_or_throw(name, calibration);
+  if (name.starts_with("loam")) return make_loam(name, calibration, config);
   const bool demo = name.starts_with("demo") || name == "vo_depth_only";
   return demo ? make_demo(name, calibration, config) : make_vloam(name, calibration, config);
 }

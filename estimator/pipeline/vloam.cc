@@ -10,7 +10,7 @@
 namespace plumbline {
 namespace {
 
-constexpr std::int64_t kTrackLength_ns = MessageGate::kLongestDelay_ns;
+constexpr std::int64_t kTrackLength_ns = MessageGate::kLongestDelay_ns + SweepAssembler::kLongest_ns;
 constexpr std::int64_t kMaxImuGap_ns = 500'000'000;
 
 // A solution's rows share errors that whitening does not know: features of one key-frame share its depth errors over
@@ -39,13 +39,15 @@ Calibration effective(Calibration calibration, const EstimatorConfig& config) {
 
 }  // namespace
 
-Vloam::Vloam(const Calibration& calibration, const EstimatorConfig& config)
+Vloam::Vloam(const Calibration& calibration, const EstimatorConfig& config, const VisionConfig& vision,
+             const ScanMatcherConfig& matcher, Coupling coupling)
     : calibration_(effective(calibration, config)),
       config_(config),
+      coupling_(coupling),
       gate_(message_use(calibration_, config)),
       initializer_(calibration_),
-      vision_(calibration_, VisionConfig{}, config.remapping),
-      matcher_(calibration_, ScanMatcherConfig{}, config.remapping) {}
+      vision_(calibration_, vision, config.remapping),
+      matcher_(calibration_, matcher, config.remapping) {}
 
 void Vloam::add(const ImuSample& received) {
   std::optional<ImuSample> sample = gate_.admit(received);
@@ -111,14 +113,26 @@ void Vloam::see(const Frame& frame) {
   gate_.count_used(Module::kVision);
   if (frame.camera_id != 0) return vision_.add_stereo(frame);
   const Pose predicted = filter_->world_from_keyframe().inverse() * track_.at(frame.stamp_ns);
-  const SolveResult solved = vision_.process(frame, {predicted, filter_->keyframe_motion_covariance()});
-  correct([&] { filter_->update_keyframe_motion(solved, predicted, kVisionInflation); });
-  if (vision_.wants_keyframe()) {
-    const Pose world_from_body = track_.at(frame.stamp_ns);
-    filter_->set_keyframe(world_from_body);
-    vision_.start_keyframe(world_from_body);
+  const PosePrior prior{predicted, filter_->keyframe_motion_covariance()};
+  if (coupling_ == Coupling::kJoint) {
+    if (vision_.follow(frame, prior)) {
+      followed_ns_ = frame.stamp_ns;
+    } else {
+      start_keyframe_when_due(frame.stamp_ns);
+    }
+    return;
   }
+  const SolveResult solved = vision_.process(frame, prior);
+  correct([&] { filter_->update_keyframe_motion(solved, predicted, kVisionInflation); });
+  start_keyframe_when_due(frame.stamp_ns);
   report(frame.stamp_ns, Module::kVision, solved, predicted, watch.seconds());
+}
+
+void Vloam::start_keyframe_when_due(std::int64_t image_ns) {
+  if (!vision_.wants_keyframe()) return;
+  const Pose world_from_body = track_.at(image_ns);
+  filter_->set_keyframe(world_from_body);
+  vision_.start_keyframe(world_from_body);
 }
 
 void Vloam::handle(const DepthFrame& frame) {
@@ -134,18 +148,51 @@ void Vloam::handle(const LidarScan& scan) {
   gate_.count_used(Module::kLidar);
   const StopWatch watch;
   const auto points_in_body = deskew(scan, track_, calibration_.body_from_lidar, scan.end_ns);
-  if (config_.lidar_enabled) refine_with_scan(scan, points_in_body);
+  if (config_.lidar_enabled) {
+    const std::optional<LidarScan> sweep = sweeps_.add(scan);
+    const bool in_parts = sweep && sweep->points.size() != scan.points.size();
+    if (in_parts && track_.covers(sweep->stamp_ns)) {
+      refine_with_scan(*sweep, deskew(*sweep, track_, calibration_.body_from_lidar, sweep->end_ns));
+    } else if (sweep && !in_parts) {
+      refine_with_scan(scan, points_in_body);
+    }
+  }
 
   const Pose world_from_body = track_.at(scan.end_ns);
   if (config_.vision_enabled) vision_.add_depth_points(scan.end_ns, points_in_body, world_from_body);
   if (!health_.empty() && health_.back().module == Module::kLidar) health_.back().processing_s = watch.seconds();
 }
 
+/// Matches a scan to the map; in the joint problem, with the rows of the newest image, whose body stood a little before
+/// the scan's end.
+SolveResult Vloam::match(const FeatureCloud& features, const Pose& predicted) {
+  const PosePrior prior{predicted, filter_->pose_covariance()};
+  const auto image_ns = std::exchange(followed_ns_, std::nullopt);
+  if (!image_ns || !track_.covers(*image_ns)) return matcher_.match(features, prior);
+  const Pose end_from_image = predicted.inverse() * track_.at(*image_ns);
+  const Matrix6d d_image_d_end = adjoint(end_from_image.inverse());
+  const Pose keyframe_from_world = filter_->world_from_keyframe().inverse();
+  int image_features = 0;
+  const SolveResult solved = matcher_.match(features, prior, [&](const Pose& world_from_body, ResidualRows& rows) {
+    ResidualRows of_image;
+    vision_.linearize(keyframe_from_world * world_from_body * end_from_image, of_image);
+    image_features = of_image.feature_count();
+    rows.append(of_image, d_image_d_end);
+  });
+  if (solved.spectrum.well_conditioned > 0) {
+    vision_.settle(keyframe_from_world * solved.pose * end_from_image,
+                   {solved.weights.end() - image_features, solved.weights.end()});
+  }
+  return solved;
+}
+
 void Vloam::refine_with_scan(const LidarScan& scan, const std::vector<Eigen::Vector3f>& points_in_body) {
   const FeatureCloud features = extract_features(scan, points_in_body, calibration_);
   const Pose predicted = track_.at(scan.end_ns);
-  const SolveResult solved = matcher_.match(features, {predicted, filter_->pose_covariance()});
+  const std::optional<std::int64_t> image_ns = followed_ns_;
+  const SolveResult solved = match(features, predicted);
   correct([&] { filter_->update_pose(solved, predicted, kLidarInflation); });
+  if (image_ns) start_keyframe_when_due(*image_ns);
   const Pose world_from_body = track_.at(scan.end_ns);
   path_m_ += (world_from_body.translation - last_scan_position_).norm();
   last_scan_position_ = world_from_body.translation;

@@ -220,24 +220,26 @@ class Bundle {
       // Depth from the motion itself repeats what these very images say: it starts the solution and no more.
       const bool has_depth = s.source != DepthSource::kNone && s.source != DepthSource::kTriangulated;
       if (k == 0) {
-        add_row<ceres::AutoDiffCostFunction<AnchorPixelError, 2, 3>>(problem, AnchorPixelError{ray, weight}, landmark);
+        add_row<ceres::AutoDiffCostFunction<AnchorPixelError, 2, 3>, ceres::HuberLoss>(
+            problem, AnchorPixelError{ray, weight}, landmark);
         if (has_depth) {
-          add_row<ceres::AutoDiffCostFunction<AnchorDepthError, 1, 3>>(problem, AnchorDepthError{s.depth}, landmark);
+          add_row<ceres::AutoDiffCostFunction<AnchorDepthError, 1, 3>, ceres::CauchyLoss>(
+              problem, AnchorDepthError{s.depth}, landmark);
         }
       } else {
-        add_row<ceres::AutoDiffCostFunction<PixelError, 2, 7, 7, 3>>(problem, PixelError{ray, weight}, anchor, now,
-                                                                     landmark);
+        add_row<ceres::AutoDiffCostFunction<PixelError, 2, 7, 7, 3>, ceres::HuberLoss>(problem, PixelError{ray, weight},
+                                                                                       anchor, now, landmark);
         if (has_depth) {
-          add_row<ceres::AutoDiffCostFunction<DepthError, 1, 7, 7, 3>>(problem, DepthError{s.depth}, anchor, now,
-                                                                       landmark);
+          add_row<ceres::AutoDiffCostFunction<DepthError, 1, 7, 7, 3>, ceres::CauchyLoss>(problem, DepthError{s.depth},
+                                                                                          anchor, now, landmark);
         }
       }
     }
   }
 
-  template <typename Cost, typename Error, typename... Blocks>
+  template <typename Cost, typename Loss, typename Error, typename... Blocks>
   void add_row(ceres::Problem& problem, const Error& error, Blocks*... blocks) {
-    problem.AddResidualBlock(new Cost(new Error(error)), new ceres::HuberLoss(kRobustSigma), blocks...);
+    problem.AddResidualBlock(new Cost(new Error(error)), new Loss(kRobustSigma), blocks...);
   }
 
   const std::vector<BundleImage>& images_;

@@ -32,7 +32,7 @@ TrackedFeature::Depth shown_depth(DepthSource source) {
     case DepthSource::kTriangulated:
       return TrackedFeature::Depth::kTriangulated;
     default:
-      return TrackedFeature::Depth::kMeasured;
+      return TrackedFeature::Depth::kLidar;
   }
 }
 

@@ -39,6 +39,9 @@ struct VisualOdometry::Impl {
   template <typename Frame>
   SolveResult process(const Frame& frame, const PosePrior& prior);
   template <typename Frame>
+  bool follow(const Frame& frame, const PosePrior& prior);
+  void settle(const Pose& keyframe_from_body, const std::vector<double>& weights);
+  template <typename Frame>
   void add_stereo(const Frame& right);
   void choose_rows(const PosePrior& prior);
   SolveResult solve_motion(const PosePrior& prior) const;
@@ -85,21 +88,42 @@ SolveResult VisualOdometry::process(const PointFrame& frame, const PosePrior& ke
 
 template <typename Frame>
 SolveResult VisualOdometry::Impl::process(const Frame& frame, const PosePrior& prior) {
-  solved = false;
-  has_image = set.take(frame);
-  if (!has_image) return unsolved(prior.mean);
-  newest_ns = frame.stamp_ns;
-  if (!world_from_keyframe) return unsolved(prior.mean);
-  set.track(prior.mean, keyframe_from_newest);
-  choose_rows(prior);
+  if (!follow(frame, prior)) return unsolved(prior.mean);
   const SolveResult result = solve_motion(prior);
   keyframe_from_newest = result.pose;
-  solved = result.spectrum.well_conditioned > 0;
-  if (solved) {
-    set.judge(result.weights);
-    set.renew_anchor(keyframe_from_newest);
-  }
+  if (result.spectrum.well_conditioned > 0) settle(result.pose, result.weights);
   return result;
+}
+
+bool VisualOdometry::follow(const CameraFrame& frame, const PosePrior& prior) { return impl_->follow(frame, prior); }
+bool VisualOdometry::follow(const PointFrame& frame, const PosePrior& prior) { return impl_->follow(frame, prior); }
+
+template <typename Frame>
+bool VisualOdometry::Impl::follow(const Frame& frame, const PosePrior& prior) {
+  solved = false;
+  has_image = set.take(frame);
+  if (!has_image) return false;
+  newest_ns = frame.stamp_ns;
+  if (!world_from_keyframe) return false;
+  set.track(prior.mean, keyframe_from_newest);
+  choose_rows(prior);
+  keyframe_from_newest = prior.mean;
+  return true;
+}
+
+void VisualOdometry::linearize(const Pose& keyframe_from_body, ResidualRows& rows) const {
+  impl_->set.linearize(keyframe_from_body, rows);
+}
+
+void VisualOdometry::settle(const Pose& keyframe_from_body, const std::vector<double>& weights) {
+  impl_->settle(keyframe_from_body, weights);
+}
+
+void VisualOdometry::Impl::settle(const Pose& keyframe_from_body, const std::vector<double>& weights) {
+  solved = true;
+  keyframe_from_newest = keyframe_from_body;
+  set.judge(weights);
+  set.renew_anchor(keyframe_from_newest);
 }
 
 void VisualOdometry::add_stereo(const CameraFrame& right) { impl_->add_stereo(right); }

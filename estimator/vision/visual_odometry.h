@@ -62,6 +62,15 @@ class VisualOdometry {
   /// The same with given points in place of an image.
   SolveResult process(const PointFrame& frame, const PosePrior& keyframe_from_body);
 
+  /// Tracks the features into a new image and leaves the solving to a problem of several sensors, which takes
+  /// linearize() as its rows and ends with settle(). False if the image has nothing to say.
+  bool follow(const CameraFrame& frame, const PosePrior& keyframe_from_body);
+  bool follow(const PointFrame& frame, const PosePrior& keyframe_from_body);
+  /// The newest image's rows at a candidate keyframe_from_body.
+  void linearize(const Pose& keyframe_from_body, ResidualRows& rows) const;
+  /// @param weights  of the rows' features, in their order
+  void settle(const Pose& keyframe_from_body, const std::vector<double>& weights);
+
   /// True when the newest image should become the key-frame: none yet, too many features lost, or little overlap.
   bool wants_keyframe() const;
 

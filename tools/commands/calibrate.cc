@@ -56,8 +56,8 @@ int run_calibrate(const CalibrateArguments& arguments) {
   bool completed = false;
   {
     ProgressLine line(plan.name);
-    const SweepOptions options{jobs_or_cores(arguments.jobs), {}, [&line](double share) { line.update(share); }};
-    const std::string program = fs::read_symlink("/proc/self/exe").string();
+    const SweepOptions options{jobs_or_all(arguments.jobs), {}, [&line](double share) { line.update(share); }};
+    const std::string program = own_program();
     completed = make_runs(plan, directory, plumbline_run(sweep, plan, program), options);
   }
   write_sweep_outputs(directory.paths().root, plan, directory.rows());

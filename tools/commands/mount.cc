@@ -158,7 +158,7 @@ int run_mount(const MountArguments& arguments) {
   agree_on_predictions(out, predictions_csv(study, mountings));
   if (chosen.empty()) throw InputError(study.path.string() + ": no mounting is within the limits; see predictions.csv");
 
-  const std::string program = fs::read_symlink("/proc/self/exe").string();
+  const std::string program = own_program();
   std::vector<std::vector<RunRow>> rows;
   bool completed = true;
   for (Trial& trial : trials) {
@@ -167,7 +167,7 @@ int run_mount(const MountArguments& arguments) {
     SweepDirectory directory(directory_path, trial.plan, SweepDirectory::Mode::kResume);
     if (completed) {
       ProgressLine line(study.name + ", " + trial.plan.scenario);
-      SweepOptions options{jobs_or_cores(arguments.jobs), {}, [&line](double share) { line.update(share); }};
+      SweepOptions options{jobs_or_all(arguments.jobs), {}, [&line](double share) { line.update(share); }};
       completed = make_runs(trial.plan, directory, plumbline_run(trial.sweep, trial.plan, program), options);
     }
     rows.push_back(directory.rows());

@@ -37,6 +37,10 @@ std::vector<PosePair> moved_by(const Alignment& alignment, std::vector<PosePair>
   return pairs;
 }
 
+double duration_s(const StampedPoses& poses) {
+  return poses.empty() ? 0.0 : seconds_between(poses.front().stamp_ns, poses.back().stamp_ns);
+}
+
 std::optional<double> finite(std::optional<double> value) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
@@ -69,7 +73,8 @@ void append_messages(std::vector<Figure>& list, const std::string& key, const Me
 TrajectoryFigures trajectory_figures(const StampedPoses& truth, const StampedPoses& estimate,
                                      std::optional<AlignmentKind> alignment) {
   TrajectoryFigures figures;
-  if (!truth.empty()) figures.duration_s = seconds_between(truth.front().stamp_ns, truth.back().stamp_ns);
+  figures.has_truth = !truth.empty();
+  figures.duration_s = duration_s(truth);
   figures.distance_m = path_length_m(truth);
 
   const std::vector<PosePair> pairs = pair_poses_to_end(truth, estimate);
@@ -88,6 +93,7 @@ TrajectoryFigures trajectory_figures(const StampedPoses& truth, const StampedPos
   // Relative figures are blind to alignment but for a scale, which the aligned estimate already has.
   figures.kitti = kitti_error(figures.aligned, figures.distance_m);
   figures.rpe = relative_error(figures.aligned);
+  figures.rpe_by_second_m = relative_error_by_second_m(figures.aligned);
   figures.ape = absolute_error(moved_by(align(pairs, alignment.value_or(AlignmentKind::kSe3)), pairs));
   return figures;
 }
@@ -96,11 +102,12 @@ RunFigures run_figures(const RunRecord& record,
                        const std::function<double(const Eigen::Vector3d&)>& distance_to_surface) {
   RunFigures figures;
   figures.trajectory = trajectory_figures(record.ground_truth, record.estimate);
+  figures.simulated_s = figures.trajectory.has_truth ? figures.trajectory.duration_s : duration_s(record.estimate);
   figures.map = map_error(record.map, figures.trajectory.drift_alignment.truth_from_estimate, distance_to_surface);
   figures.map_points = record.map.size();
   figures.nees_mean = nees_mean(record.odometry, record.ground_truth);
   if (record.estimator_wall_s > 0.0) {
-    figures.estimator_real_time_factor = figures.trajectory.duration_s / record.estimator_wall_s;
+    figures.estimator_real_time_factor = figures.simulated_s / record.estimator_wall_s;
   }
   for (const Module module : kModules) {
     figures.modules[module] = module_figures(record, module);
@@ -112,8 +119,8 @@ RunFigures run_figures(const RunRecord& record,
 
 std::vector<Figure> figure_list(const TrajectoryFigures& figures) {
   return {
-      {"duration_s", finite(figures.duration_s)},
-      {"distance_m", finite(figures.distance_m)},
+      {"duration_s", figures.has_truth ? finite(figures.duration_s) : std::nullopt},
+      {"distance_m", figures.has_truth ? finite(figures.distance_m) : std::nullopt},
       {"drift_percent", finite(figures.drift_percent)},
       {"progress_ratio", finite(figures.progress.whole)},
       {"progress_ratio_worst_5s", finite(figures.progress.worst_5s)},

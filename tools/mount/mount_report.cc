@@ -11,7 +11,7 @@
 #include "tools/mount/mount_tables.h"
 #include "tools/report/heat_map.h"
 #include "tools/report/markup.h"
-#include "tools/report/page_style.h"
+#include "tools/report/page_parts.h"
 #include "tools/report/point_chart.h"
 
 namespace plumbline {
@@ -151,10 +151,6 @@ Drawing front_chart(const MountResults& results) {
   return point_chart(chart);
 }
 
-std::string heading(const std::string& title, const std::string& note) {
-  return "<h2>" + escape_markup(title) + "</h2><p class=\"note\">" + escape_markup(note) + "</p>";
-}
-
 std::string interval_text(const std::optional<Interval>& interval) {
   if (!interval) return "–";
   return readable_text(interval->value) + " (" + readable_text(interval->low) + " … " + readable_text(interval->high) +
@@ -255,21 +251,17 @@ MountReport mount_report(const MountStudy& study, const MountResults& results, c
   }
   const std::string charts = charts_html(study, results, report.charts);
   report.charts.push_back(front_chart(results));
-  report.html =
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-      "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>" +
-      escape_markup(study.name) + " – Plumbline</title><style>" + kPageStyle +
-      "</style></head><body><main><header><h1>" + escape_markup(study.name) +
-      "</h1><span class=\"badge\">mounting study</span></header>" + heading("Recommended", reason_for(study, results)) +
-      pictures_html(study, views) +
-      heading("The front", "Mountings that no other betters in every weighted figure; intervals are 95 %.") +
-      figure_html(report.charts.back()) + heading("How well the prediction ranks", ranking_text(results)) +
-      heading("Over the angles",
-              "Predictions come from rays along the path and the exact information of what they meet; the measured "
-              "drift is the estimator's.") +
-      charts + heading("All mountings", "Predicted for all; measured for those that the second stage tried.") +
-      mounting_table(study, results) + "<p class=\"note\">The runs, by scenario:" + links +
-      "</p></main></body></html>\n";
+  report.html = page_html(
+      study.name,
+      "<header><h1>" + escape_markup(study.name) + "</h1><span class=\"badge\">mounting study</span></header>" +
+          heading("Recommended", reason_for(study, results)) + pictures_html(study, views) +
+          heading("The front", "Mountings that no other betters in every weighted figure; intervals are 95 %.") +
+          figure_html(report.charts.back()) + heading("How well the prediction ranks", ranking_text(results)) +
+          heading("Over the angles",
+                  "Predictions come from rays along the path and the exact information of what they meet; the measured "
+                  "drift is the estimator's.") +
+          charts + heading("All mountings", "Predicted for all; measured for those that the second stage tried.") +
+          mounting_table(study, results) + "<p class=\"note\">The runs, by scenario:" + links + "</p>");
   return report;
 }
 

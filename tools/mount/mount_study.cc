@@ -90,10 +90,9 @@ MountStudy read_mount_study(const std::filesystem::path& path) {
   check_axes(file, study.runs);
   std::string vehicle;
   if (reader.read("vehicle", vehicle)) study.runs.fixed.push_back("motion.vehicle=" + vehicle);
-  reader.section("limits", [&](ConfigReader& limits) {
+  read_limits(reader, study.runs.limits, [&](ConfigReader& limits) {
     limits.read("own_body_share", study.limits.own_body_share, kShare);
     limits.read("overlap", study.limits.overlap, kShare);
-    read_run_limits(limits, study.runs.limits);
   });
   reader.section("weigh", [&](ConfigReader& weights) { read_weights(weights, study.weights); });
   reader.section("trial", [&](ConfigReader& trial) { read_trial(trial, study.trial); });

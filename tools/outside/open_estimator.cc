@@ -22,6 +22,7 @@ std::vector<std::string> command_of(const OutsideName& outside, const fs::path& 
 std::unique_ptr<Estimator> open_estimator(const std::string& name, const fs::path& directory,
                                           const Calibration& calibration, const EstimatorConfig& config) {
   if (const auto outside = outside_name(name)) {
+    if (!config.imu_enabled) throw InputError(name + ": an estimator from outside answers IMU samples; there are none");
     OutsideCommand command{name, command_of(*outside, directory), directory};
     command.is_host = outside->kind == OutsideName::Kind::kLibrary;
     return make_outside_estimator(command, calibration);

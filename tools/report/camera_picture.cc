@@ -24,8 +24,8 @@ std::string png_of(const CameraFrame& frame) {
 
 std::string depth_class(const TrackedFeature& feature) {
   switch (feature.depth) {
-    case TrackedFeature::Depth::kMeasured:
-      return "depth-measured";
+    case TrackedFeature::Depth::kLidar:
+      return "depth-lidar";
     case TrackedFeature::Depth::kTriangulated:
       return "depth-triangulated";
     case TrackedFeature::Depth::kNone:
@@ -64,7 +64,7 @@ std::string camera_picture(const FrameSnapshot& snapshot, std::int64_t start_ns)
 }
 
 std::string camera_legend() {
-  return legend({{"depth-measured", "depth measured"},
+  return legend({{"depth-lidar", "depth from lidar"},
                  {"depth-triangulated", "triangulated"},
                  {"depth-none", "no depth"},
                  {"outlier", "outlier"}});

@@ -54,7 +54,7 @@ svg text{font-size:13px;fill:var(--soft);font-family:inherit}
 .band{fill:var(--hue);opacity:.2}.dot{fill:var(--hue)}svg text.on-pale{fill:#2b1a10}svg text.on-dark{fill:#fff}
 .scale,.whisker{stroke:var(--ink);stroke-width:1.6;vector-effect:non-scaling-stroke}
 circle.start{fill:var(--card);stroke:var(--ink);stroke-width:2}circle.end{fill:var(--hue)}
-.depth-measured{--hue:#35d0ba}.depth-triangulated{--hue:#ffa62b}.depth-none{--hue:#9fb4ff}.outlier{--hue:#ff3b5c}
+.depth-lidar{--hue:#35d0ba}.depth-triangulated{--hue:#ffa62b}.depth-none{--hue:#9fb4ff}.outlier{--hue:#ff3b5c}
 .feature{fill:none;stroke:var(--hue);stroke-width:1.4}.track{stroke:var(--hue);stroke-width:1;opacity:.7}
 .camera svg{border-radius:8px;background:#000}
 .legend{display:flex;flex-wrap:wrap;gap:2px 14px;color:var(--soft);font-size:13px;margin:2px 0 4px}

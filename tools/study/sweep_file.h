@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "scenarios/config_reader.h"
+#include "tools/study/study_keys.h"
 
 namespace plumbline {
 
@@ -38,12 +38,6 @@ struct SweepSample {
   std::size_t count = 0;
 };
 
-/// What a run may take before it is ended and recorded as such.
-struct RunLimits {
-  double time_s = 3600.0;
-  double memory_mb = 8192.0;  ///< resident
-};
-
 /// A sweep file, read and checked; which runs it makes is the plan's matter.
 struct SweepFile {
   std::string name;  ///< the file's stem
@@ -69,7 +63,5 @@ SweepFile read_sweep_file(const std::filesystem::path& path);
 /// What other studies' files have in common with a sweep's: sample, axes, set, seeds and estimators.
 /// @param axes  the key that the axes stand under
 void read_runs(ConfigReader& reader, SweepFile& sweep, const std::string& axes = "axes");
-/// time_s and memory_mb.
-void read_run_limits(ConfigReader& reader, RunLimits& limits);
 
 }  // namespace plumbline

@@ -16,9 +16,9 @@
 #include "tools/interrupt.h"
 #include "tools/output/atomic_file.h"
 #include "tools/output/provenance.h"
-#include "tools/thesis/suite_page.h"
-#include "tools/thesis/suite_results.h"
-#include "tools/thesis/suite_runner.h"
+#include "tools/thesis/page.h"
+#include "tools/thesis/results.h"
+#include "tools/thesis/runner.h"
 
 namespace plumbline {
 namespace {
@@ -36,14 +36,14 @@ struct Arguments {
   std::string program;
 };
 
-std::vector<SuiteRow> chosen_rows(const std::vector<SuiteRow>& rows, const std::vector<std::string>& ids) {
+std::vector<ThesisRow> chosen_rows(const std::vector<ThesisRow>& rows, const std::vector<std::string>& ids) {
   if (ids.empty()) return rows;
-  std::vector<SuiteRow> chosen;
+  std::vector<ThesisRow> chosen;
   for (const std::string& id : ids) {
-    const auto row = std::find_if(rows.begin(), rows.end(), [&](const SuiteRow& r) { return r.experiment.id == id; });
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const ThesisRow& r) { return r.experiment.id == id; });
     if (row == rows.end()) {
       std::vector<std::string> known;
-      for (const SuiteRow& r : rows) known.push_back(r.experiment.id);
+      for (const ThesisRow& r : rows) known.push_back(r.experiment.id);
       throw InputError("found the experiment '" + id + "', expected one of: " + joined(known));
     }
     chosen.push_back(*row);
@@ -54,12 +54,12 @@ std::vector<SuiteRow> chosen_rows(const std::vector<SuiteRow>& rows, const std::
 /// What is published: every row's state, as a file for machines and as a page.
 class Publication {
  public:
-  Publication(const Arguments& arguments, const std::vector<SuiteRow>& rows, const SuiteRuns& runs)
+  Publication(const Arguments& arguments, const std::vector<ThesisRow>& rows, const ThesisRuns& runs)
       : results_(arguments.results), rows_(rows), runs_(runs), before_(read_results(arguments.results)) {}
 
   std::vector<RowResult> results() const {
     std::vector<RowResult> results;
-    for (const SuiteRow& row : rows_) {
+    for (const ThesisRow& row : rows_) {
       results.push_back(newer(row_result(row.experiment, runs_.of(row), row.impossible, program_version()), before_));
     }
     return results;
@@ -68,15 +68,15 @@ class Publication {
   void write() const {
     const std::vector<RowResult> rows = results();
     write_file_atomically(results_, results_json(rows));
-    write_file_atomically(runs_.page(), suite_page(rows, links()));
+    write_file_atomically(runs_.page(), thesis_page(rows, links()));
   }
 
  private:
   RunLinks links() const {
     RunLinks links;
-    for (const SuiteRow& row : rows_) {
+    for (const ThesisRow& row : rows_) {
       for (const auto& of_configuration : row.runs) {
-        for (const SuiteRun& run : of_configuration) {
+        for (const ThesisRun& run : of_configuration) {
           if (!fs::exists(runs_.run_directory(run) / "report.html")) continue;
           links[row.experiment.id].emplace_back(run.label.substr(row.experiment.id.size() + 1),
                                                 "runs/" + run.planned.key + "/report.html");
@@ -87,8 +87,8 @@ class Publication {
   }
 
   fs::path results_;
-  const std::vector<SuiteRow>& rows_;
-  const SuiteRuns& runs_;
+  const std::vector<ThesisRow>& rows_;
+  const ThesisRuns& runs_;
   std::vector<RowResult> before_;
 };
 
@@ -97,8 +97,8 @@ const char* verdict_word(const std::optional<bool>& holds) {
   return *holds ? "holds" : "DOES NOT HOLD";
 }
 
-void list_rows(const std::vector<SuiteRow>& rows, const SuiteRuns& runs, const std::vector<RowResult>& results) {
-  for (const SuiteRow& row : rows) {
+void list_rows(const std::vector<ThesisRow>& rows, const ThesisRuns& runs, const std::vector<RowResult>& results) {
+  for (const ThesisRow& row : rows) {
     const auto result =
         std::find_if(results.begin(), results.end(), [&](const RowResult& r) { return r.id == row.experiment.id; });
     const auto missing = static_cast<double>(runs.missing(row).size());
@@ -117,16 +117,17 @@ std::string program_identity(const fs::path& program) {
 }
 
 ExitCode run(const Arguments& arguments) {
-  const std::vector<SuiteRow> rows = plan_suite(read_experiments(arguments.table), program_identity(arguments.program));
-  const std::vector<SuiteRow> chosen = chosen_rows(rows, arguments.ids);
-  SuiteRuns runs(fs::absolute(arguments.out));
+  const std::vector<ThesisRow> rows =
+      plan_thesis(read_experiments(arguments.table), program_identity(arguments.program));
+  const std::vector<ThesisRow> chosen = chosen_rows(rows, arguments.ids);
+  ThesisRuns runs(fs::absolute(arguments.out));
   const Publication publication(arguments, rows, runs);
   publication.write();
   if (arguments.list) {
     list_rows(chosen, runs, publication.results());
     return kExitDone;
   }
-  SuiteOptions options;
+  ThesisOptions options;
   options.jobs = arguments.jobs;
   if (arguments.budget_min > 0.0) options.budget_s = 60.0 * arguments.budget_min;
   const std::vector<RowResult> before = publication.results();
@@ -134,12 +135,12 @@ ExitCode run(const Arguments& arguments) {
     return std::any_of(before.begin(), before.end(),
                        [&](const RowResult& row) { return row.id == id && row.judgement.holds.has_value(); });
   };
-  options.starting = [](const SuiteRun& run, double expected_s) {
+  options.starting = [](const ThesisRun& run, double expected_s) {
     std::cout << run.label << ", some " << readable_text(expected_s / 60.0) << " min" << std::endl;
   };
   options.ended = [&publication] { publication.write(); };
   catch_interrupts();
-  const bool completed = run_suite(chosen, runs, plumbline_commands(arguments.program), options);
+  const bool completed = run_thesis(chosen, runs, plumbline_commands(arguments.program), options);
   publication.write();
   list_rows(chosen, runs, publication.results());
   std::cout << runs.page().string() << std::endl;

@@ -116,8 +116,8 @@ TEST_F(JudgementTest, AShorterPathSaysSoAndDoesNotCountAsHolding) {
 
 TEST_F(JudgementTest, OursAndSpreadAreTextsWithUnits) {
   const Judgement judgement = judged("{max: 1}", runs_of({{0.1, 0.3, 0.2}, {2, 2, 2}, {kNoFigure, 1, kNotRun}}));
-  EXPECT_EQ(judgement.ours, "a 0.2 %, b 2 %, c 1 %");
-  EXPECT_EQ(judgement.spread, "a 0.1 … 0.3 %, b 2 … 2 %, c 1 … 1 %");
+  EXPECT_EQ(judgement.ours, "a 0.200 %, b 2.00 %, c 1.00 %");
+  EXPECT_EQ(judgement.spread, "a 0.100 … 0.300 %, b 2.00 … 2.00 %, c 1.00 … 1.00 %");
   ASSERT_EQ(judgement.figures.size(), 3U);
   EXPECT_THAT(judgement.figures[0].values, ::testing::ElementsAre(0.1, 0.3, 0.2));
 }

@@ -5,7 +5,7 @@
 
 #include "scenarios/scenario.h"
 #include "scenarios/scenario_files.h"
-#include "tools/thesis/suite_results.h"
+#include "tools/thesis/results.h"
 
 namespace plumbline {
 namespace {

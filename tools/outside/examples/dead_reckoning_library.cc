@@ -1,7 +1,8 @@
 // An estimator in a shared library: dead reckoning, after half a second at rest that shows gravity and the gyro's bias.
 //
-//     c++ -std=c++20 -O2 -shared -fPIC -I PLUMBLINE -isystem /usr/include/eigen3 dead_reckoning_library.cc -o
-//     libmine.so plumbline run scenarios/quickstart.yaml --estimator ./libmine.so
+//     c++ -std=c++20 -O2 -shared -fPIC -I PLUMBLINE -I /usr/include/eigen3 -o libmine.so dead_reckoning_library.cc
+//
+//     plumbline run scenarios/quickstart.yaml --estimator ./libmine.so
 //
 // PLUMBLINE is the source tree that the program was built from: estimator.h is the interface between both.
 #include <Eigen/Geometry>

@@ -1,7 +1,8 @@
 // An estimator as a program of its own: dead reckoning, after half a second at rest that shows gravity and the gyro's
 // bias. It needs nothing of Plumbline's.
 //
-//     c++ -std=c++20 -O2 -isystem /usr/include/eigen3 dead_reckoning_program.cc -o mine
+//     c++ -std=c++20 -O2 -I /usr/include/eigen3 -o mine dead_reckoning_program.cc
+//
 //     plumbline run scenarios/quickstart.yaml --estimator exec:./mine
 //
 // Messages come on standard input and answers go to standard output; tools/outside/README.md describes both.
