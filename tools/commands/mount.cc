@@ -123,7 +123,6 @@ void write_outputs(const fs::path& out, const MountStudy& study, const MountResu
   std::vector<MountView> views;
   if (results.recommended) {
     for (Trial& trial : trials) {
-      Scenario scenario = load_scenario(trial.sweep.scenario, trial.plan.fixed, trial.plan.seeds.front());
       const std::vector<AxisValue>& values = results.mountings[*results.recommended].values;
       const auto run = std::find_if(trial.plan.runs.begin(), trial.plan.runs.end(), [&](const PlannedRun& candidate) {
         return std::equal(values.begin(), values.end(), candidate.values.begin(),
