@@ -6,7 +6,7 @@
 namespace plumbline {
 namespace {
 
-constexpr Range kLux{0.001, 100'000.0};
+constexpr Range kLux{0.0, 100'000.0};
 constexpr Range kLightFactor{0.0, 1000.0};
 constexpr Range kTime_s{0.0, 100'000.0};
 constexpr Range kSunLux{0.0, 200'000.0};

@@ -13,6 +13,12 @@ namespace {
 
 // Real units err by more than their white noise (scale, misalignment, aliasing of vibration).
 constexpr double kDensityMargin = 1.5;
+// Scale and misalignment make a unit misread what it measures by so much, a gyroscope also by what pushes it: figures
+// of consumer and automotive MEMS. Between rest and motion these errors change, which a bias cannot follow; they last
+// as long as a swing or a turn does.
+constexpr double kShapeError = 2e-3;    // of the reading
+constexpr double kPushedRate = 1.7e-4;  // [rad/s per m/s^2]
+constexpr double kSwing_s = 0.2;
 
 double squared(double x) { return x * x; }
 
@@ -46,6 +52,7 @@ InertialFilter::InertialFilter(const InitialState& start, const ImuNoise& noise,
   const double known = std::max(0.0, bias_variance - squared(start.tilt_sigma * kStandardGravity));
   covariance_.block<3, 3>(kAccelBias, kAccelBias) -= known * up_in_body * up_in_body.transpose();
   set_keyframe(state_.world_from_body);
+  set_past();
 }
 
 void InertialFilter::predict(const InertialSegment& segment) {
@@ -58,8 +65,9 @@ void InertialFilter::predict(const InertialSegment& segment) {
   const Eigen::Matrix3d body_now_from_before =
       (next.world_from_body.rotation.conjugate() * state_.world_from_body.rotation).toRotationMatrix();
 
-  // Transition of the error state without the key-frame, which rests.
+  // Transition of the error state without the poses that rest.
   constexpr int kMoving = kKeyframe;
+  constexpr int kResting = kSize - kMoving;
   Eigen::Matrix<double, kMoving, kMoving> f = Eigen::Matrix<double, kMoving, kMoving>::Identity();
   f.block<3, 3>(kAttitude, kAttitude) = body_now_from_before;
   f.block<3, 3>(kAttitude, kGyroBias) = -h * right_jacobian_so3(h * rate);
@@ -74,43 +82,76 @@ void InertialFilter::predict(const InertialSegment& segment) {
   f.block<3, 3>(kPosition, kAccelBias) = -0.5 * h * h * body_now_from_world * r;
   f.block<3, 2>(kPosition, kGravity) = 0.5 * h * h * body_now_from_world.leftCols<2>();
 
+  // The map rests in the world, and so its offset moves as seen from the body.
+  const Matrix6d carry = adjoint(next.world_from_body.inverse() * state_.world_from_body);
+  f.block<6, 6>(kMap, kMap) = carry;
+
   auto moving = covariance_.topLeftCorner<kMoving, kMoving>();
   moving = (f * moving * f.transpose()).eval();
-  auto cross = covariance_.topRightCorner<kMoving, 6>();
+  auto cross = covariance_.topRightCorner<kMoving, kResting>();
   cross = (f * cross).eval();
-  covariance_.bottomLeftCorner<6, kMoving>() = cross.transpose();
+  covariance_.bottomLeftCorner<kResting, kMoving>() = cross.transpose();
 
   const auto add_noise = [&](int block, double density) {
     moving.block<3, 3>(block, block).diagonal().array() += squared(density) * h;
   };
-  add_noise(kAttitude, kDensityMargin * noise_.gyro_density);
-  add_noise(kVelocity, kDensityMargin * noise_.accel_density);
+  const double push = (r * force + state_.gravity_in_world).norm();
+  const double misread_rate = kShapeError * rate.norm() + kPushedRate * push;
+  add_noise(kAttitude, std::hypot(kDensityMargin * noise_.gyro_density, std::sqrt(kSwing_s) * misread_rate));
+  add_noise(kVelocity, std::hypot(kDensityMargin * noise_.accel_density, std::sqrt(kSwing_s) * kShapeError * push));
   add_noise(kGyroBias, noise_.gyro_random_walk);
   add_noise(kAccelBias, noise_.accel_random_walk);
   symmetrize();
   state_ = next;
+  map_offset_ = carry * map_offset_;
+}
+
+InertialFilter::Jacobian InertialFilter::map_jacobian() {
+  Jacobian j = Jacobian::Zero();
+  j.leftCols<6>().setIdentity();
+  j.middleCols<6>(kMap).setIdentity();
+  return j;
+}
+
+Matrix6d InertialFilter::map_from_body_covariance() const {
+  const Jacobian j = map_jacobian();
+  return j * covariance_ * j.transpose();
 }
 
 void InertialFilter::update_pose(const SolveResult& solved, const Pose& predicted, double inflation) {
-  Jacobian d_pose_d_error = Jacobian::Zero();
-  d_pose_d_error.leftCols<6>().setIdentity();
-  update(solved, predicted, d_pose_d_error, inflation);
+  update(solved, predicted, map_jacobian(), inflation);
+}
+
+/// New content has the present pose's error, which is that of the state with the other sign.
+void InertialFilter::renew_map(double share, const Matrix6d& systematic) {
+  Covariance renewed = Covariance::Identity();
+  renewed.block<6, 6>(kMap, kMap) *= 1.0 - share;
+  renewed.block<6, 6>(kMap, 0).diagonal().setConstant(-share);
+  covariance_ = (renewed * covariance_ * renewed.transpose()).eval();
+  covariance_.block<6, 6>(kMap, kMap) += systematic;
+  symmetrize();
+  map_offset_ *= 1.0 - share;
 }
 
 void InertialFilter::update_keyframe_motion(const SolveResult& solved, const Pose& predicted, double inflation) {
-  update(solved, predicted, keyframe_motion_jacobian(), inflation);
+  update(solved, predicted, motion_jacobian(world_from_keyframe_, kKeyframe), inflation);
 }
 
-/// keyframe_from_body retracted by (-Ad(body_from_keyframe) keyframe error + body error).
-InertialFilter::Jacobian InertialFilter::keyframe_motion_jacobian() const {
+/// clone_from_body retracted by (-Ad(body_from_clone) clone's error + body error).
+InertialFilter::Jacobian InertialFilter::motion_jacobian(const Pose& world_from_clone, int clone) const {
   Jacobian j = Jacobian::Zero();
   j.leftCols<6>().setIdentity();
-  j.rightCols<6>() = -adjoint(state_.world_from_body.inverse() * world_from_keyframe_);
+  j.middleCols<6>(clone) = -adjoint(state_.world_from_body.inverse() * world_from_clone);
   return j;
 }
 
 Matrix6d InertialFilter::keyframe_motion_covariance() const {
-  const Jacobian j = keyframe_motion_jacobian();
+  const Jacobian j = motion_jacobian(world_from_keyframe_, kKeyframe);
+  return j * covariance_ * j.transpose();
+}
+
+Matrix6d InertialFilter::past_motion_covariance() const {
+  const Jacobian j = motion_jacobian(world_from_past_, kPast);
   return j * covariance_ * j.transpose();
 }
 
@@ -153,13 +194,24 @@ void InertialFilter::apply(const ErrorState& correction) {
   const Eigen::Vector2d lean = state_.gravity_in_world.head<2>() + correction.segment<2>(kGravity);
   const double down = std::sqrt(std::max(0.0, squared(kStandardGravity) - lean.squaredNorm()));
   state_.gravity_in_world << lean, -down;
+  map_offset_ += correction.segment<6>(kMap);
   world_from_keyframe_ = world_from_keyframe_.retract(correction.segment<6>(kKeyframe));
+  world_from_past_ = world_from_past_.retract(correction.segment<6>(kPast));
 }
 
 void InertialFilter::set_keyframe(const Pose& world_from_body) {
   world_from_keyframe_ = world_from_body;
-  covariance_.rightCols<6>() = covariance_.leftCols<6>().eval();
-  covariance_.bottomRows<6>() = covariance_.topRows<6>().eval();
+  clone_pose(kKeyframe);
+}
+
+void InertialFilter::set_past() {
+  world_from_past_ = state_.world_from_body;
+  clone_pose(kPast);
+}
+
+void InertialFilter::clone_pose(int clone) {
+  covariance_.middleCols<6>(clone) = covariance_.leftCols<6>().eval();
+  covariance_.middleRows<6>(clone) = covariance_.topRows<6>().eval();
 }
 
 }  // namespace plumbline

@@ -12,8 +12,14 @@
 /// own prediction and the old biases persist; position never overwrites velocity, it informs it by covariance.
 namespace plumbline {
 
+/// The map that scans are matched with was made of earlier scans at poses that erred, too. A match tells where the body
+/// is in that map, so it carries the map's error, which changes only as the map's content is renewed. Taken for an
+/// absolute fix scan by scan, ten a second, it would soon hold the attitude so firmly that gravity could not correct
+/// it.
+///
 /// Error state: [attitude, position (both right perturbations in B), velocity in W, gyro bias, accel bias,
-/// gravity's x and y in W, key-frame attitude, key-frame position].
+/// gravity's x and y in W, the map's offset (attitude and position, seen from B), key-frame attitude and position, the
+/// pose some time ago: attitude and position].
 class InertialFilter {
  public:
   static constexpr int kAttitude = 0;
@@ -22,8 +28,10 @@ class InertialFilter {
   static constexpr int kGyroBias = 9;
   static constexpr int kAccelBias = 12;
   static constexpr int kGravity = 15;
-  static constexpr int kKeyframe = 17;
-  static constexpr int kSize = 23;
+  static constexpr int kMap = 17;
+  static constexpr int kKeyframe = 23;
+  static constexpr int kPast = 29;
+  static constexpr int kSize = 35;
   using Covariance = Eigen::Matrix<double, kSize, kSize>;
   using ErrorState = Eigen::Matrix<double, kSize, 1>;
 
@@ -33,31 +41,46 @@ class InertialFilter {
   /// Mechanises over a segment that starts at the state's stamp, and spreads the covariance.
   void predict(const InertialSegment& segment);
 
-  /// Fuses a pose solved against the map. `predicted` is the pose that the state had at the measurement's time.
+  /// Fuses a pose solved against the map. `predicted` is what map_from_body() was at the measurement's time.
   /// @param inflation  of the solution's covariance, for errors that its rows share
-  void update_pose(const SolveResult& world_from_body, const Pose& predicted, double inflation);
+  void update_pose(const SolveResult& map_from_body, const Pose& predicted, double inflation);
+  /// A scan has been merged into the map at the present pose.
+  /// @param share       of what the next scans will be matched with that is new, [0, 1]
+  /// @param systematic  covariance of errors that all matches with one content share, right perturbation
+  void renew_map(double share, const Matrix6d& systematic);
   /// Fuses a pose solved against the key-frame.
   void update_keyframe_motion(const SolveResult& keyframe_from_body, const Pose& predicted, double inflation);
 
   /// Makes the pose at the newest image the key-frame.
   void set_keyframe(const Pose& world_from_body);
+  /// Makes the present pose the past one, for the covariance of the motion since.
+  void set_past();
 
   const NavigationState& state() const { return state_; }
   const Pose& world_from_keyframe() const { return world_from_keyframe_; }
   const Covariance& covariance() const { return covariance_; }
   Matrix6d pose_covariance() const { return covariance_.topLeftCorner<6, 6>(); }
+  /// Where the body stands in the map, whose content may be off by what it took over from earlier poses.
+  Pose map_from_body() const { return state_.world_from_body.retract(map_offset_); }
+  Matrix6d map_from_body_covariance() const;
   /// Of keyframe_from_body, right perturbation.
   Matrix6d keyframe_motion_covariance() const;
+  /// Of past_from_body, right perturbation.
+  Matrix6d past_motion_covariance() const;
 
  private:
   using Jacobian = Eigen::Matrix<double, 6, kSize>;
-  Jacobian keyframe_motion_jacobian() const;
+  static Jacobian map_jacobian();
+  Jacobian motion_jacobian(const Pose& world_from_clone, int clone) const;
+  void clone_pose(int clone);
   void update(const SolveResult& solved, const Pose& predicted, const Jacobian& d_pose_d_error, double inflation);
   void apply(const ErrorState& correction);
   void symmetrize();
 
   NavigationState state_;
   Pose world_from_keyframe_;
+  Pose world_from_past_;
+  Vector6d map_offset_ = Vector6d::Zero();
   ImuNoise noise_;
   bool remapping_ = true;
   Covariance covariance_ = Covariance::Zero();

@@ -1,5 +1,6 @@
 #include "estimator/imu/initialization.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace plumbline {
@@ -9,6 +10,8 @@ constexpr double kDecisionWindow_s = 0.1;
 constexpr double kMovingFactor = 5.0;    // spread above so many times the data sheet's noise is motion
 constexpr double kMaxRestRate = 0.1;     // [rad/s], far above any turn-on bias at rest
 constexpr double kMovingTilt = 0.1;      // [rad], while walking the mean force is off the vertical by about this
+constexpr double kRestSigma = 1e-4;      // [rad, m] a sample
+constexpr double kDensityMargin = 2.0;   // of a single sample: rounding to the unit's steps adds to its noise
 constexpr double kMovingVelocity = 5.0;  // [m/s]
 }  // namespace
 
@@ -52,6 +55,14 @@ bool Initializer::moving() const {
   const double force_limit = kMovingFactor * noise_.accel_density * std::sqrt(rate_hz_);
   return mean_rate_.norm() > kMaxRestRate || std::sqrt(rate_square_sum_.maxCoeff() / n) > rate_limit ||
          std::sqrt(force_square_sum_.maxCoeff() / n) > force_limit;
+}
+
+Matrix6d Initializer::increment_covariance() const {
+  const double sample_sigma = kDensityMargin * noise_.accel_density * std::sqrt(rate_hz_) / kStandardGravity;
+  const double n = std::max(2, count_);
+  Vector6d variance = Vector6d::Constant(kRestSigma * kRestSigma);
+  variance.head<2>().array() += sample_sigma * sample_sigma / (n * (n - 1.0));
+  return variance.asDiagonal();
 }
 
 Pose Initializer::attitude() const {

@@ -24,6 +24,9 @@ class Initializer {
   std::optional<InitialState> add(const ImuSample& sample);
   /// Level attitude by what has been seen so far, at the origin; for outputs before the start.
   Pose attitude() const;
+  /// Of the attitude's change with the last sample: by how much its variance fell. What is taken to rest is held to do
+  /// so within a millimetre and a tenth of a milliradian a sample.
+  Matrix6d increment_covariance() const;
 
  private:
   bool moving() const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "estimator/geometry/pose.h"
@@ -14,6 +15,7 @@ struct FeaturePoint {
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< planes: unit, in B, towards the sensor; edges: zero
   float spread_m = 0.0F;  ///< edges: standard deviation across the edge that the spacing of the beams adds
   float offset_s = 0.0F;  ///< since the scan's stamp: when it was measured, of a plane's cell the mean
+  int ring = 0;           ///< of its first return
 };
 
 /// What matching uses of one scan (thesis 5.12 and the selection rules of ch. 4).

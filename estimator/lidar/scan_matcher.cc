@@ -1,7 +1,9 @@
 #include "estimator/lidar/scan_matcher.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "estimator/lidar/correspondence.h"
@@ -20,6 +22,8 @@ constexpr double kLeastReach_m = 1.0;
 constexpr double kLargestReach_m = 1.5;
 constexpr double kReachPerRange = 0.07;
 
+constexpr double kLeastRange_m = 0.5;  // nearer features would let a beam turn without bound
+
 // Ten cells around a point of a wall span 0.8 m and average the noise of its normal; edges need a few more, since the
 // neighbours of one line mix with those of the next.
 constexpr int kPlaneNeighbours = 10;
@@ -30,15 +34,21 @@ constexpr int kLineNeighbours = 16;
 constexpr double kSearchAgain_m = 0.02;
 constexpr double kSearchAgain_rad = 0.003;
 
+// A data sheet's accuracy does not say how much of it averages out. A quarter of its variance is taken for a bias that
+// all returns share, a quarter for one of each ring.
+constexpr double kBiasShare = 0.5;
+
 struct PlaneMatch {
   Eigen::Vector3d point_in_body;
   MapPlane plane;
+  int ring;
 };
 
 struct LineMatch {
   Eigen::Vector3d point_in_body;
   MapLine line;
   double sigma_m;
+  int ring;
 };
 
 double reach_of(const FeaturePoint& feature) {
@@ -73,6 +83,8 @@ struct ScanMatcher::Impl {
   Impl(const Calibration& calibration, const ScanMatcherConfig& settings, bool remap)
       : config(settings),
         sigma_m(std::max(kLeastSigma_m, std::sqrt(2.0) * calibration.lidar_range_sigma_m)),
+        bias_sigma_m(kBiasShare * calibration.lidar_range_sigma_m),
+        body_from_lidar(calibration.body_from_lidar),
         edges(settings.coarse_voxel_m, settings.edge_resolution_m),
         planes(settings.coarse_voxel_m, settings.plane_resolution_m) {
     options.max_iterations = settings.max_iterations;
@@ -89,9 +101,12 @@ struct ScanMatcher::Impl {
 
   ScanMatcherConfig config;
   double sigma_m;
+  double bias_sigma_m;
+  Pose body_from_lidar;
   SolverOptions options;
   FitLimits plane_limits;
   FitLimits edge_limits;
+  MatchDrift drift;
   VoxelMap edges;
   VoxelMap planes;
   std::vector<MatchRow> rows;  ///< of the last match
@@ -139,7 +154,52 @@ class MapConstraints {
   }
   std::size_t plane_count() const { return plane_matches_.size(); }
 
+  /// To first order: J^T of the rows times their change per metre of motion and bias, summed over each ring, since all
+  /// of a ring err alike, and over all.
+  MatchDrift drift(const SolveResult& solved, const Eigen::Vector3d& lidar_in_body, double bias_sigma_m) {
+    ResidualRows rows;
+    linearize(solved.pose, rows);
+    const int n = solved.spectrum.well_conditioned;
+    if (n == 0 || static_cast<int>(solved.weights.size()) < rows.feature_count()) return {};
+    using Gain = Eigen::Matrix<double, 6, 3>;
+    std::map<int, Gain> gain_of_ring;
+    double square_sum = 0.0;
+    for (int f = 0; f < rows.feature_count(); ++f) {
+      const auto [point, ring] = feature(static_cast<std::size_t>(f));
+      const double range = std::max((point - lidar_in_body).norm(), kLeastRange_m);
+      const Eigen::Vector3d beam = (point - lidar_in_body) / range;
+      square_sum += range * range;
+      Gain& gain = gain_of_ring.try_emplace(ring, Gain::Zero()).first->second;
+      const Eigen::Matrix3d beam_turns = (Eigen::Matrix3d::Identity() - beam * beam.transpose()) / range;
+      const double weight = solved.weights[static_cast<std::size_t>(f)];
+      // A row's derivative by the position is its derivative by the feature's.
+      for (int r = rows.first_row(f); r < rows.end_row(f); ++r) {
+        gain += weight * rows.jacobian(r) * (rows.jacobian(r).tail<3>().transpose() * beam_turns);
+      }
+    }
+    const Eigen::MatrixXd basis = solved.spectrum.eigenvectors.rightCols(n);
+    const Matrix6d pose_of_gradient =
+        basis * (basis.transpose() * solved.information * basis).ldlt().solve(Eigen::MatrixXd(basis.transpose()));
+    if (!pose_of_gradient.allFinite()) return {};
+    MatchDrift drift;
+    drift.reach_m = std::sqrt(square_sum / rows.feature_count());
+    Gain of_all = Gain::Zero();
+    for (const auto& [ring, gain] : gain_of_ring) {
+      drift.per_metre.push_back(bias_sigma_m * pose_of_gradient * gain);
+      of_all += drift.per_metre.back();
+    }
+    drift.per_metre.push_back(of_all);
+    return drift;
+  }
+
  private:
+  /// In the order of the rows.
+  std::pair<Eigen::Vector3d, int> feature(std::size_t at) const {
+    if (at < plane_matches_.size()) return {plane_matches_[at].point_in_body, plane_matches_[at].ring};
+    const LineMatch& line = line_matches_[at - plane_matches_.size()];
+    return {line.point_in_body, line.ring};
+  }
+
   bool moved_far(const Pose& pose) const {
     const Vector6d moved = searched_at_.local(pose);
     return moved.head<3>().norm() > kSearchAgain_rad || moved.tail<3>().norm() > kSearchAgain_m;
@@ -159,7 +219,7 @@ class MapConstraints {
     const Eigen::Vector3d normal = world_from_body.rotation * feature.normal.cast<double>();
     NearestSamples nearest(kPlaneNeighbours, reach_of(feature), normal.cast<float>());
     planes_.nearest(world_from_body * point, reach_of(feature), nearest);
-    if (const auto plane = fit_plane(nearest, plane_limits_)) plane_matches_.push_back({point, *plane});
+    if (const auto plane = fit_plane(nearest, plane_limits_)) plane_matches_.push_back({point, *plane, feature.ring});
   }
 
   void match_line(const FeaturePoint& feature, const Pose& world_from_body) {
@@ -167,7 +227,9 @@ class MapConstraints {
     NearestSamples nearest(kLineNeighbours, reach_of(feature), Eigen::Vector3f::Zero());
     edges_.nearest(world_from_body * point, reach_of(feature), nearest);
     const auto line = fit_line(nearest, edge_limits_);
-    if (line) line_matches_.push_back({point, *line, std::hypot(sigma_m_, static_cast<double>(feature.spread_m))});
+    if (!line) return;
+    const double sigma_m = std::hypot(sigma_m_, static_cast<double>(feature.spread_m));
+    line_matches_.push_back({point, *line, sigma_m, feature.ring});
   }
 
   const VoxelMap& edges_;
@@ -200,7 +262,7 @@ SolveResult ScanMatcher::match(const FeatureCloud& features, const PosePrior& wo
   MapConstraints constraints(m.edges, m.planes, m.edge_limits, m.plane_limits, m.sigma_m, used);
   m.rows.clear();
   std::size_t planes = 0;
-  const SolveResult result = solve(
+  const SolveResult solved = solve(
       world_from_body.mean, world_from_body,
       [&](const Pose& pose, ResidualRows& rows) {
         constraints.linearize(pose, rows);
@@ -213,9 +275,23 @@ SolveResult ScanMatcher::match(const FeatureCloud& features, const PosePrior& wo
       m.options);
   for (std::size_t i = 0; i < m.rows.size(); ++i) {
     const std::size_t feature = i < planes ? i : planes + (i - planes) / 2;
-    m.rows[i].weight = feature < result.weights_at_guess.size() ? result.weights_at_guess[feature] : 0.0;
+    m.rows[i].weight = feature < solved.weights_at_guess.size() ? solved.weights_at_guess[feature] : 0.0;
   }
-  return result;
+  m.drift = constraints.drift(solved, m.body_from_lidar.translation, m.bias_sigma_m);
+  return solved;
+}
+
+const MatchDrift& ScanMatcher::drift() const { return impl_->drift; }
+
+Matrix6d MatchDrift::covariance(const Eigen::Vector3d& step_in_body) const {
+  const double step_m = step_in_body.norm();
+  Matrix6d sum = Matrix6d::Zero();
+  if (step_m <= 0.0) return sum;
+  for (const Eigen::Matrix<double, 6, 3>& d : per_metre) {
+    const Vector6d drift = d * step_in_body;
+    sum += std::max(1.0, reach_m / step_m) * drift * drift.transpose();
+  }
+  return sum;
 }
 
 const std::vector<MatchRow>& ScanMatcher::rows() const { return impl_->rows; }

@@ -29,6 +29,17 @@ struct ScanMatcherConfig {
   double largest_edge_tilt = 0.05;   ///< [rad] one sigma of a fitted line's direction
 };
 
+/// How range biases make successive matches drift. A bias moves a feature along its beam, and as the sensor goes past
+/// the beam turns: to the matcher the whole scene creeps. No residual of one match shows it.
+struct MatchDrift {
+  /// Of the pose (right perturbation) per metre of the sensor's motion in B, for one bias at one sigma each.
+  std::vector<Eigen::Matrix<double, 6, 3>> per_metre;
+  double reach_m = 0.0;  ///< root mean square distance of the matched features: moving so far renews them
+
+  /// Covariance of the drift over a step [m]: it goes on alike until the features are renewed.
+  Matrix6d covariance(const Eigen::Vector3d& step_in_body) const;
+};
+
 /// Scan-to-map matching (thesis 5.3, eqs. 5.13-5.15): edge points to lines and planar points to planes of a voxel map.
 class ScanMatcher {
  public:
@@ -44,6 +55,9 @@ class ScanMatcher {
 
   /// The rows of the last match as they were at its guess, with their robust weights: what detectors of degeneracy see.
   const std::vector<MatchRow>& rows() const;
+
+  /// Of the last match.
+  const MatchDrift& drift() const;
 
   /// Merges a scan into the map at a pose and forgets what is older than memory_path_m.
   /// @param path_m  distance travelled so far by the estimate

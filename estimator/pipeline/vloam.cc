@@ -11,12 +11,13 @@ namespace plumbline {
 namespace {
 
 constexpr std::int64_t kTrackLength_ns = MessageGate::kLongestDelay_ns + SweepAssembler::kLongest_ns;
+constexpr std::int64_t kIncrementWindow_ns = 1'000'000'000;
 constexpr std::int64_t kMaxImuGap_ns = 500'000'000;
 
 // A solution's rows share errors that whitening does not know: features of one key-frame share its depth errors over
-// dozens of frames, points of neighbouring scans share the map's.
+// dozens of frames. Those of scan matching are the map's (see InertialFilter and MatchDrift).
 constexpr double kVisionInflation = 25.0;
-constexpr double kLidarInflation = 25.0;
+constexpr double kLidarInflation = 1.0;
 
 // The estimator stops believing its position when the filter's own standard deviation exceeds this [m].
 constexpr double kLostSigma_m = 10.0;
@@ -67,7 +68,9 @@ void Vloam::add(const ImuSample& received) {
     }
     advance_to(sample->stamp_ns, segment);
   }
+  watch_increments(sample->stamp_ns);
   outputs_.push_back(output(sample->stamp_ns));
+  outputs_.back().increment_covariance = increment_covariance(seconds_between(previous.stamp_ns, sample->stamp_ns));
   outputs_.back().health = std::exchange(health_, {});
 }
 
@@ -76,6 +79,7 @@ void Vloam::start_with(const InitialState& start, const ImuSample& sample) {
   if (!config_.imu_enabled) initial.state.accel_bias = Eigen::Vector3d(0.0, 0.0, -kStandardGravity);
   filter_.emplace(initial, calibration_.imu, config_.remapping);
   track_.push(sample.stamp_ns, initial.state.world_from_body);
+  past_ns_ = sample.stamp_ns;
   gate_.start_at(sample.stamp_ns);
 }
 
@@ -165,22 +169,23 @@ void Vloam::handle(const LidarScan& scan) {
 
 /// Matches a scan to the map; in the joint problem, with the rows of the newest image, whose body stood a little before
 /// the scan's end.
-SolveResult Vloam::match(const FeatureCloud& features, const Pose& predicted) {
-  const PosePrior prior{predicted, filter_->pose_covariance()};
+SolveResult Vloam::match(const FeatureCloud& features, std::int64_t end_ns, const Pose& map_from_body) {
+  const PosePrior prior{map_from_body, filter_->map_from_body_covariance()};
   const auto image_ns = std::exchange(followed_ns_, std::nullopt);
   if (!image_ns || !track_.covers(*image_ns)) return matcher_.match(features, prior);
-  const Pose end_from_image = predicted.inverse() * track_.at(*image_ns);
+  const Pose world_from_end = track_.at(end_ns);
+  const Pose end_from_image = world_from_end.inverse() * track_.at(*image_ns);
   const Matrix6d d_image_d_end = adjoint(end_from_image.inverse());
-  const Pose keyframe_from_world = filter_->world_from_keyframe().inverse();
+  const Pose keyframe_from_map = filter_->world_from_keyframe().inverse() * world_from_end * map_from_body.inverse();
   int image_features = 0;
-  const SolveResult solved = matcher_.match(features, prior, [&](const Pose& world_from_body, ResidualRows& rows) {
+  const SolveResult solved = matcher_.match(features, prior, [&](const Pose& pose, ResidualRows& rows) {
     ResidualRows of_image;
-    vision_.linearize(keyframe_from_world * world_from_body * end_from_image, of_image);
+    vision_.linearize(keyframe_from_map * pose * end_from_image, of_image);
     image_features = of_image.feature_count();
     rows.append(of_image, d_image_d_end);
   });
   if (solved.spectrum.well_conditioned > 0) {
-    vision_.settle(keyframe_from_world * solved.pose * end_from_image,
+    vision_.settle(keyframe_from_map * solved.pose * end_from_image,
                    {solved.weights.end() - image_features, solved.weights.end()});
   }
   return solved;
@@ -188,16 +193,25 @@ SolveResult Vloam::match(const FeatureCloud& features, const Pose& predicted) {
 
 void Vloam::refine_with_scan(const LidarScan& scan, const std::vector<Eigen::Vector3f>& points_in_body) {
   const FeatureCloud features = extract_features(scan, points_in_body, calibration_);
-  const Pose predicted = track_.at(scan.end_ns);
+  const Pose predicted = filter_->map_from_body();
   const std::optional<std::int64_t> image_ns = followed_ns_;
-  const SolveResult solved = match(features, predicted);
+  const SolveResult solved = match(features, scan.end_ns, predicted);
   correct([&] { filter_->update_pose(solved, predicted, kLidarInflation); });
   if (image_ns) start_keyframe_when_due(*image_ns);
   const Pose world_from_body = track_.at(scan.end_ns);
-  path_m_ += (world_from_body.translation - last_scan_position_).norm();
+  const Eigen::Vector3d step_in_world = world_from_body.translation - last_scan_position_;
+  path_m_ += step_in_world.norm();
   last_scan_position_ = world_from_body.translation;
   matcher_.insert(features, world_from_body, path_m_);
+  renew_map(world_from_body.rotation.conjugate() * step_in_world);
   report(scan.end_ns, Module::kLidar, solved, predicted, 0.0);
+}
+
+void Vloam::renew_map(const Eigen::Vector3d& step_in_body) {
+  if (!std::exchange(has_map_, true)) return filter_->renew_map(1.0, Matrix6d::Zero());
+  const MatchDrift& drift = matcher_.drift();
+  if (drift.reach_m <= 0.0) return;
+  filter_->renew_map(std::min(1.0, step_in_body.norm() / drift.reach_m), drift.covariance(step_in_body));
 }
 
 template <typename Update>
@@ -210,6 +224,27 @@ void Vloam::correct(Update&& update) {
 void Vloam::report(std::int64_t stamp_ns, Module module, const SolveResult& solved, const Pose& predicted,
                    double seconds) {
   health_.push_back(health_of(stamp_ns, module, solved, predicted, seconds));
+}
+
+/// The errors of successive steps share their causes, such as the velocity's error and the map's, so that the
+/// covariances of single steps could not be composed. Each step takes its share of the whole second's before it.
+void Vloam::watch_increments(std::int64_t stamp_ns) {
+  if (!filter_ || stamp_ns <= past_ns_) return;
+  const bool complete = stamp_ns - past_ns_ >= kIncrementWindow_ns;
+  if (!complete && knows_increments_) return;
+  // Seen from the middle of the window: composing shares from its two ends would count the lever arms twice.
+  const std::int64_t middle_ns = past_ns_ + (stamp_ns - past_ns_) / 2;
+  const Matrix6d carry = adjoint(track_.at(middle_ns).inverse() * filter_->state().world_from_body);
+  const double window_s = seconds_between(past_ns_, stamp_ns);
+  covariance_per_s_ = carry * filter_->past_motion_covariance() * carry.transpose() / window_s;
+  if (!complete) return;
+  knows_increments_ = true;
+  filter_->set_past();
+  past_ns_ = stamp_ns;
+}
+
+Matrix6d Vloam::increment_covariance(double interval_s) const {
+  return filter_ ? Matrix6d(interval_s * covariance_per_s_) : initializer_.increment_covariance();
 }
 
 Odometry Vloam::output(std::int64_t stamp_ns) const {

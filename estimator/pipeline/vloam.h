@@ -51,14 +51,17 @@ class Vloam final : public Estimator {
   void handle(const LidarScan& scan);
   template <typename Frame>
   void see(const Frame& frame);
-  SolveResult match(const FeatureCloud& features, const Pose& predicted);
+  SolveResult match(const FeatureCloud& features, std::int64_t end_ns, const Pose& map_from_body);
   void start_keyframe_when_due(std::int64_t image_ns);
   void refine_with_scan(const LidarScan& scan, const std::vector<Eigen::Vector3f>& points_in_body);
+  void renew_map(const Eigen::Vector3d& step_in_body);
   /// Lets an update act, and moves the recent track with it, so that the track's inner shape stays the IMU's.
   template <typename Update>
   void correct(Update&& update);
   void report(std::int64_t stamp_ns, Module module, const SolveResult& solved, const Pose& predicted, double seconds);
   Odometry output(std::int64_t stamp_ns) const;
+  void watch_increments(std::int64_t stamp_ns);
+  Matrix6d increment_covariance(double interval_s) const;
 
   Calibration calibration_;
   EstimatorConfig config_;
@@ -74,7 +77,12 @@ class Vloam final : public Estimator {
   PoseTrack track_;                          ///< world_from_body over the last sweep or so
   std::optional<std::int64_t> followed_ns_;  ///< stamp of the newest image, while no scan has solved its rows
   double path_m_ = 0.0;
+  bool has_map_ = false;
   Eigen::Vector3d last_scan_position_ = Eigen::Vector3d::Zero();
+
+  std::int64_t past_ns_ = 0;  ///< stamp of the filter's past pose
+  bool knows_increments_ = false;
+  Matrix6d covariance_per_s_ = Matrix6d::Zero();  ///< of the motion over the last second
 
   std::vector<Odometry> outputs_;
   std::vector<ModuleHealth> health_;
