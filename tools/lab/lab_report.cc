@@ -147,7 +147,8 @@ std::string detectors_csv(const LabFindings& findings) {
     for (const auto& value : {score.area, at_choice(score, &RocPoint::threshold),
                               of_choice(score, &ThresholdChoice::margin), at_choice(score, &RocPoint::hits),
                               at_choice(score, &RocPoint::false_alarms), score.angle_deg, score.latency_scans}) {
-      text += "," + number(value);
+      text += ",";
+      text += number(value);
     }
     text += "," + std::to_string(score.onsets) + "," + std::to_string(score.onsets_missed) + ",,\n";
   }

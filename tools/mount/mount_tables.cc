@@ -93,7 +93,10 @@ std::string reason_for(const MountStudy& study, const MountResults& results) {
     text += " Next comes " + describe(study, *next) + " with " + with_interval(*next->drift_percent) +
             (apart ? "." : ", whose interval overlaps: between the two, more seeds would have to decide.");
   }
-  if (best.lost > 0) text += " " + std::to_string(best.lost) + " of its " + std::to_string(best.runs) + " runs failed.";
+  if (best.lost > 0) {
+    text += " ";
+    text += std::to_string(best.lost) + " of its " + std::to_string(best.runs) + " runs failed.";
+  }
   return text;
 }
 
