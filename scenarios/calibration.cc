@@ -39,6 +39,7 @@ Calibration calibration_of(const RigConfig& rig) {
   const Pose imu_from_pack{Eigen::Quaterniond::Identity(), -rig.imu.position_in_body};
   add_cameras(rig, imu_from_pack, calibration);
 
+  calibration.has_lidar = rig.has_lidar;
   calibration.body_from_lidar = imu_from_pack * rig.pack_from_lidar * rig.told_lidar_from_lidar.inverse();
   calibration.lidar_rings = ring_count(rig.lidar);
   calibration.lidar_rate_hz = rig.lidar.rate_hz / messages_per_sweep(rig.lidar) / rig.decimation;  // sweeps

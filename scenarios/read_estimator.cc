@@ -2,6 +2,7 @@
 
 #include "scenarios/figures.h"
 #include "scenarios/input_error.h"
+#include "scenarios/outside_name.h"
 #include "scenarios/schema.h"
 
 namespace plumbline {
@@ -11,6 +12,25 @@ constexpr Range kFigure{-1e12, 1e12};
 
 void read_enabled(ConfigReader& reader, const std::string& key, bool& enabled) {
   reader.section(key, [&](ConfigReader& module) { module.read("enabled", enabled); });
+}
+
+std::string read_name(const ConfigNode& node, const std::string& key) {
+  const std::string& name = text_of(node, key);
+  if (const auto outside = outside_name(name)) {
+    if (outside->words.empty()) fail_at(node, key, "a program after exec:");
+    const auto file = outside->file();
+    std::error_code error;
+    if (file && !std::filesystem::is_regular_file(node.directory / *file, error)) {
+      fail_at(node, key, "an existing file (looked for " + (node.directory / *file).string() + ")");
+    }
+    return name;
+  }
+  std::vector<std::string> names;
+  for (const EstimatorInfo& info : estimator_library()) names.push_back(info.name);
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    fail_at(node, key, "one of: " + joined(names) + ", exec:PROGRAM, LIBRARY.so");
+  }
+  return name;
 }
 
 Expectation read_bounds(ConfigReader& reader, const std::string& figure) {
@@ -29,15 +49,21 @@ Expectation read_bounds(ConfigReader& reader, const std::string& figure) {
 
 }  // namespace
 
-void read_estimator(ConfigReader& reader, std::string& name, EstimatorConfig& config) {
-  std::vector<std::string> names;
-  for (const auto& info : estimator_library()) names.push_back(info.name);
-  std::size_t index = 0;
-  if (reader.read_choice("name", names, index)) name = names[index];
+void read_estimator(ConfigReader& reader, std::string& name, std::filesystem::path& directory,
+                    EstimatorConfig& config) {
+  if (const ConfigNode* node = reader.find("name")) {
+    name = read_name(*node, reader.path_of("name"));
+    directory = node->directory;
+  }
   read_enabled(reader, "imu", config.imu_enabled);
   read_enabled(reader, "vision", config.vision_enabled);
   read_enabled(reader, "lidar", config.lidar_enabled);
   reader.section("degeneracy", [&](ConfigReader& degeneracy) { degeneracy.read("remapping", config.remapping); });
+  const bool as_it_is = config.imu_enabled && config.vision_enabled && config.lidar_enabled && config.remapping;
+  if (outside_name(name) && !as_it_is) {
+    throw InputError(reader.node().where + ": " + reader.path_of("name") + ": found '" + name +
+                     "', which has no switches such as vision.enabled or degeneracy.remapping");
+  }
 }
 
 void read_expect(ConfigReader& reader, std::vector<Expectation>& expect, std::optional<std::string>& status) {

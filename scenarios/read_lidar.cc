@@ -23,6 +23,7 @@ void read_effects(ConfigReader& reader, LidarEffects& effects) {
 }  // namespace
 
 void read_lidar_device(ConfigReader& reader, RigConfig& config) {
+  reader.read("enabled", config.has_lidar);
   read_model(reader, "lidar", catalogue_lidar, config.lidar);
   reader.read("rate_hz", config.lidar.rate_hz, kRate_hz);
   std::size_t returns = 0;

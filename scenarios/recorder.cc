@@ -4,10 +4,17 @@
 #include <chrono>
 #include <exception>
 
+#include "scenarios/estimator_fault.h"
+
 namespace plumbline {
 namespace {
 
 constexpr std::array<double, 3> kSnapshotShares{1.0 / 6.0, 1.0 / 2.0, 5.0 / 6.0};
+
+Module module_of(const SensorPayload& payload) {
+  if (std::holds_alternative<ImuSample>(payload)) return Module::kImu;
+  return std::holds_alternative<LidarScan>(payload) ? Module::kLidar : Module::kVision;
+}
 
 }  // namespace
 
@@ -16,6 +23,8 @@ double Recorder::guarded(Call call) {
   const auto start = std::chrono::steady_clock::now();
   try {
     call();
+  } catch (const EstimatorFault& fault) {
+    set_fault(fault.what());
   } catch (const std::exception& error) {
     set_fault(std::string("the estimator threw: ") + error.what());
   } catch (...) {
@@ -32,6 +41,12 @@ void Recorder::add(Module module, std::int64_t stamp_ns, const Message& message)
   ++record_.messages[module].produced;
   const double wall_s = guarded([&] { estimator_.add(message); });
   record_.timing.push_back({stamp_ns, module, wall_s});
+}
+
+void Recorder::deliver(const SensorMessage& message) {
+  record_.sensors_wall_s += message.wall_s;
+  if (!message.lost.empty()) return lose(module_of(message.payload), message.lost);
+  std::visit([this](const auto& payload) { deliver(payload); }, message.payload);
 }
 
 void Recorder::deliver(const ImuSample& sample) {
@@ -73,7 +88,8 @@ void Recorder::take() {
 void Recorder::take_snapshot(const CameraFrame& frame) {
   const std::size_t taken = record_.snapshots.size();
   if (faulted() || taken == kSnapshotShares.size()) return;
-  if (static_cast<double>(frame.stamp_ns) < kSnapshotShares[taken] * static_cast<double>(duration_ns_)) return;
+  const auto since_start = static_cast<double>(frame.stamp_ns - start_ns_);
+  if (since_start < kSnapshotShares[taken] * static_cast<double>(end_ns_ - start_ns_)) return;
   FrameSnapshot snapshot{frame, {}};
   guarded([&] { snapshot.features = estimator_.features(); });
   record_.snapshots.push_back(std::move(snapshot));

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "scenarios/run_record.h"
+#include "scenarios/sensor_message.h"
 
 namespace plumbline {
 
@@ -11,20 +12,17 @@ namespace plumbline {
 /// threw becomes the record's fault.
 class Recorder {
  public:
-  /// The estimator must outlive the recorder.
-  Recorder(Estimator& estimator, std::int64_t duration_ns) : estimator_(estimator), duration_ns_(duration_ns) {}
+  /// The estimator must outlive the recorder. @param start_ns, end_ns  the run's span
+  Recorder(Estimator& estimator, std::int64_t start_ns, std::int64_t end_ns)
+      : estimator_(estimator), start_ns_(start_ns), end_ns_(end_ns) {}
 
+  /// Hands a message over, or counts it if it was lost on the way.
+  void deliver(const SensorMessage& message);
   void deliver(const ImuSample& sample);
   void deliver(const CameraFrame& frame);
   void deliver(const DepthFrame& frame);
   void deliver(const LidarScan& scan);
-  /// Counts a message that never arrived.
-  void lose(const ImuSample&, const std::string& reason) { lose(Module::kImu, reason); }
-  void lose(const CameraFrame&, const std::string& reason) { lose(Module::kVision, reason); }
-  void lose(const DepthFrame&, const std::string& reason) { lose(Module::kVision, reason); }
-  void lose(const LidarScan&, const std::string& reason) { lose(Module::kLidar, reason); }
   void add_truth(std::int64_t stamp_ns, const Pose& world_from_body);
-  void add_sensors_wall(double wall_s) { record_.sensors_wall_s += wall_s; }
 
   /// Ends the run before its time.
   void set_fault(const std::string& fault) { record_.fault = fault; }
@@ -44,7 +42,8 @@ class Recorder {
   double guarded(Call call);
 
   Estimator& estimator_;
-  std::int64_t duration_ns_ = 0;
+  std::int64_t start_ns_ = 0;
+  std::int64_t end_ns_ = 0;
   RunRecord record_;
 };
 

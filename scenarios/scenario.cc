@@ -1,25 +1,12 @@
 #include "scenarios/scenario.h"
 
-#include <cstdio>
-
+#include "scenarios/digest.h"
 #include "scenarios/read_sensor_errors.h"
 #include "scenarios/scenario_files.h"
 #include "scenarios/schema.h"
 
 namespace plumbline {
 namespace {
-
-/// FNV-1a, 64 bits: stable over machines and years, which is all that provenance asks.
-std::string digest_of(const std::string& text) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const char c : text) {
-    hash ^= static_cast<unsigned char>(c);
-    hash *= 0x100000001b3ULL;
-  }
-  char digits[17];
-  std::snprintf(digits, sizeof(digits), "%016llx", static_cast<unsigned long long>(hash));
-  return digits;
-}
 
 ConfigNode seed_node(std::uint64_t seed) {
   ConfigNode node;
@@ -44,13 +31,25 @@ void read_scenario(ConfigReader& reader, Scenario& scenario) {
   }
   if (const ConfigNode* faults = reader.find("faults")) read_faults(*faults, "faults", scenario.faults);
   reader.section("estimator", [&](ConfigReader& estimator) {
-    read_estimator(estimator, scenario.estimator_name, scenario.estimator);
+    read_estimator(estimator, scenario.estimator_name, scenario.estimator_directory, scenario.estimator);
   });
   reader.section("expect", [&](ConfigReader& expect) { read_expect(expect, scenario.expect, scenario.expect_status); });
   reader.finish();
 }
 
 }  // namespace
+
+std::string digest_of(const std::string& text) {
+  // FNV-1a, 64 bits.
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const char c : text) {
+    hash ^= static_cast<unsigned char>(c);
+    hash *= 0x100000001b3ULL;
+  }
+  char digits[17];
+  std::snprintf(digits, sizeof(digits), "%016llx", static_cast<unsigned long long>(hash));
+  return digits;
+}
 
 Scenario load_scenario(const std::filesystem::path& path, const std::vector<std::string>& overrides,
                        std::optional<std::uint64_t> seed) {

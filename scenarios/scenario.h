@@ -75,6 +75,7 @@ struct RigConfig {
   int decimation = 1;    ///< 2 drops every other message of all sensors
   bool own_body = true;  ///< sensors see the vehicle that carries them
   Pose vehicle_from_pack;
+  bool has_lidar = true;
   Pose pack_from_lidar;
   LidarModel lidar;
   MountedCamera camera;                            ///< the estimator's: camera 0
@@ -102,11 +103,15 @@ struct Scenario {
   MotionConfig motion;
   RigConfig rig;
   std::vector<Fault> faults;
-  std::string estimator_name = "vloam";
+  std::string estimator_name = "vloam";       ///< of estimator_library(), or an OutsideName
+  std::filesystem::path estimator_directory;  ///< in which an outside estimator is started: where its name was set
   EstimatorConfig estimator;
   std::vector<Expectation> expect;
   std::optional<std::string> expect_status;
 };
+
+/// Sixteen hexadecimal digits that tell one text from another, the same over machines and years.
+std::string digest_of(const std::string& text);
 
 /// Reads a scenario with its bases and command-line overrides ("key.path=value").
 /// @throws InputError for anything missing, malformed, unknown or impossible.

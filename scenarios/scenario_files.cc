@@ -11,6 +11,14 @@ namespace {
 
 constexpr std::size_t kMaxBases = 8;
 
+ConfigNode empty_map() {
+  ConfigNode node;
+  node.kind = ConfigNode::Kind::kMap;
+  node.where = "the command line";
+  node.directory = std::filesystem::current_path();
+  return node;
+}
+
 ConfigNode read_with_bases(const std::filesystem::path& path, std::vector<std::filesystem::path>& above) {
   ConfigNode file = read_yaml_file(path);
   if (!file.is_map()) fail_at(file, "the file", "a map of keys");
@@ -69,7 +77,7 @@ ConfigNode read_override(const std::string& override) {
 
 ConfigNode read_scenario_files(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
   std::vector<std::filesystem::path> above;
-  ConfigNode result = read_with_bases(path, above);
+  ConfigNode result = path.empty() ? empty_map() : read_with_bases(path, above);
   for (const auto& override : overrides) result = merged(std::move(result), read_override(override));
   return result;
 }

@@ -8,6 +8,7 @@
 #include "scenarios/bounded_queue.h"
 #include "scenarios/frame_stream.h"
 #include "scenarios/imu_stream.h"
+#include "scenarios/merged_source.h"
 #include "scenarios/scan_stream.h"
 
 namespace plumbline {
@@ -18,25 +19,6 @@ constexpr std::size_t kMessagesAhead = 60;
 
 // Drawing is more than half of a run's work: on a thread of its own it would keep everyone waiting.
 constexpr int kRendererThreads = 2;
-
-/// Two sources as one, in order of arrival; the first goes first at one time.
-class MergedSource {
- public:
-  MergedSource(MessageSource first, MessageSource second)
-      : first_(std::move(first)), second_(std::move(second)), next_first_(first_()), next_second_(second_()) {}
-
-  std::unique_ptr<SensorMessage> next() {
-    const bool take_first = next_first_ && (!next_second_ || next_first_->delivery_ns <= next_second_->delivery_ns);
-    return take_first ? std::exchange(next_first_, first_())
-                      : std::exchange(next_second_, next_second_ ? second_() : nullptr);
-  }
-
- private:
-  MessageSource first_;
-  MessageSource second_;
-  std::unique_ptr<SensorMessage> next_first_;
-  std::unique_ptr<SensorMessage> next_second_;
-};
 
 template <typename Stream>
 MessageSource source_of(std::shared_ptr<Stream> stream) {
@@ -75,21 +57,23 @@ class ReadAhead {
   std::thread thread_;
 };
 
-MessageSource linked(MessageSource source, FaultySensor sensor, const Scenario& scenario) {
-  return source_of(std::make_shared<SensorLink>(std::move(source), sensor, scenario));
+/// The lidar's scans; nothing, ever, where the rig has none.
+MessageSource scans_of(const Scenario& scenario, const Surroundings& surroundings, const Trajectory& world_from_body) {
+  if (!scenario.rig.has_lidar) return [] { return std::unique_ptr<SensorMessage>(); };
+  return source_of(std::make_shared<ScanStream>(scenario, surroundings, world_from_body));
 }
 
-MessageSource merged(MessageSource first, MessageSource second) {
-  return source_of(std::make_shared<MergedSource>(std::move(first), std::move(second)));
+MessageSource linked(MessageSource source, FaultySensor sensor, const Scenario& scenario) {
+  return source_of(std::make_shared<SensorLink>(std::move(source), sensor, scenario));
 }
 
 /// The costly sensors as they come, the IMU, and everyone's way to the estimator.
 MessageSource all_sensors(const Scenario& scenario, const Trajectory& world_from_body, MessageSource frames,
                           MessageSource scans) {
   MessageSource samples = source_of(std::make_shared<ImuStream>(scenario, world_from_body));
-  return merged(linked(std::move(samples), FaultySensor::kImu, scenario),
-                merged(linked(std::move(frames), FaultySensor::kCamera, scenario),
-                       linked(std::move(scans), FaultySensor::kLidar, scenario)));
+  return merged_sources(linked(std::move(samples), FaultySensor::kImu, scenario),
+                        merged_sources(linked(std::move(frames), FaultySensor::kCamera, scenario),
+                                       linked(std::move(scans), FaultySensor::kLidar, scenario)));
 }
 
 }  // namespace
@@ -106,7 +90,7 @@ MessageSource make_source(const Scenario& scenario, const Surroundings& surround
                           const Trajectory& world_from_body) {
   return all_sensors(scenario, world_from_body,
                      source_of(std::make_shared<FrameStream>(scenario, surroundings, world_from_body, 0)),
-                     source_of(std::make_shared<ScanStream>(scenario, surroundings, world_from_body)));
+                     scans_of(scenario, surroundings, world_from_body));
 }
 
 MessageSource make_read_ahead_source(const Scenario& scenario, const Surroundings& surroundings,
@@ -114,7 +98,7 @@ MessageSource make_read_ahead_source(const Scenario& scenario, const Surrounding
   const auto frames = [&] {
     return source_of(std::make_shared<FrameStream>(scenario, surroundings, world_from_body, kRendererThreads));
   };
-  const auto scans = [&] { return source_of(std::make_shared<ScanStream>(scenario, surroundings, world_from_body)); };
+  const auto scans = [&] { return scans_of(scenario, surroundings, world_from_body); };
   return all_sensors(scenario, world_from_body, source_of(std::make_shared<ReadAhead>(frames)),
                      source_of(std::make_shared<ReadAhead>(scans)));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include "scenarios/calibration.h"
@@ -16,6 +17,9 @@
 
 namespace plumbline {
 namespace {
+
+constexpr const char* kInterrupted = "interrupted";
+constexpr double kReportedShare = 0.005;  // progress between two reports
 
 /// Calls something whose complaints about its arguments are complaints about the scenario.
 template <typename Call>
@@ -31,20 +35,20 @@ auto as_input(const Scenario& scenario, Call call) {
 class TruthLog {
  public:
   TruthLog(const Scenario& scenario, const Trajectory& world_from_body, const SessionOptions& options,
-           Recorder& recorder)
+           const SessionListener& listener)
       : world_from_body_(world_from_body),
         body_from_imu_(Eigen::Quaterniond::Identity(), scenario.rig.imu.position_in_body),
         period_ns_(std::llround(1e9 / scenario.rig.imu.rate_hz)),
         count_(world_from_body.end_ns() / period_ns_),
         options_(options),
-        recorder_(recorder) {}
+        listener_(listener) {}
 
   /// Goes on to a time, included. @return false if the run is to end
   bool up_to(std::int64_t stamp_ns) {
     const std::int64_t samples_per_report = std::max<std::int64_t>(count_ / 200, 1);
     while (logged_ < count_ && (logged_ + 1) * period_ns_ <= stamp_ns) {
       const std::int64_t next_ns = ++logged_ * period_ns_;
-      recorder_.add_truth(next_ns, world_from_body_.pose(next_ns) * body_from_imu_);
+      listener_.truth(next_ns, world_from_body_.pose(next_ns) * body_from_imu_);
       if (options_.progress && logged_ % samples_per_report == 0 &&
           !options_.progress(static_cast<double>(logged_) / static_cast<double>(count_))) {
         return false;
@@ -59,7 +63,7 @@ class TruthLog {
   const std::int64_t period_ns_;
   const std::int64_t count_;
   const SessionOptions& options_;
-  Recorder& recorder_;
+  const SessionListener& listener_;
   std::int64_t logged_ = 0;
 };
 
@@ -76,28 +80,21 @@ void set_conditions(World& world, const WorldConfig& config) {
   for (const Lamp& lamp : glare_lamps(world, RayScene(world), config.glare_patches)) world.add_lamp(lamp);
 }
 
-void deliver(const SensorMessage& message, Recorder& recorder) {
-  recorder.add_sensors_wall(message.wall_s);
-  std::visit(
-      [&](const auto& payload) {
-        if (message.lost.empty()) {
-          recorder.deliver(payload);
-        } else {
-          recorder.lose(payload, message.lost);
-        }
-      },
-      message.payload);
+bool run(const Scenario& scenario, const Trajectory& world_from_body, const MessageSource& source,
+         const SessionOptions& options, const SessionListener& listener) {
+  TruthLog truth(scenario, world_from_body, options, listener);
+  while (const auto message = source()) {
+    if (!truth.up_to(message->delivery_ns)) return false;
+    if (!listener.message(*message)) return true;
+  }
+  return truth.up_to(world_from_body.end_ns());
 }
 
-void run(const Scenario& scenario, const Trajectory& world_from_body, const MessageSource& source,
-         const SessionOptions& options, Recorder& recorder) {
-  TruthLog truth(scenario, world_from_body, options, recorder);
-  while (const auto message = source()) {
-    if (!truth.up_to(message->delivery_ns)) return recorder.set_fault("interrupted");
-    deliver(*message, recorder);
-    if (recorder.faulted()) return;
-  }
-  if (!truth.up_to(world_from_body.end_ns())) recorder.set_fault("interrupted");
+bool run(const Scenario& scenario, const Surroundings& surroundings, const Trajectory& world_from_body,
+         const SessionOptions& options, const SessionListener& listener) {
+  const MessageSource source = options.threads > 1 ? make_read_ahead_source(scenario, surroundings, world_from_body)
+                                                   : make_source(scenario, surroundings, world_from_body);
+  return run(scenario, world_from_body, source, options, listener);
 }
 
 /// The vehicle as its sensors see it, or nothing.
@@ -141,15 +138,49 @@ RunRecord run_session(const Scenario& scenario, const World& world, const RaySce
 RunRecord run_session(const Scenario& scenario, const World& world, const RayScene& rays, const SessionOptions& options,
                       Estimator& estimator) {
   const Trajectory world_from_body = make_body_trajectory(scenario, world, rays);
-  Recorder recorder(estimator, world_from_body.end_ns());
+  Recorder recorder(estimator, 0, world_from_body.end_ns());
   const std::unique_ptr<OwnBody> own_body = own_body_of(scenario);
   const Surroundings surroundings{world, rays, own_body.get()};
-  const MessageSource source = options.threads > 1 ? make_read_ahead_source(scenario, surroundings, world_from_body)
-                                                   : make_source(scenario, surroundings, world_from_body);
-  run(scenario, world_from_body, source, options, recorder);
+  const bool whole = run(scenario, surroundings, world_from_body, options,
+                         {[&](std::int64_t stamp_ns, const Pose& pose) { recorder.add_truth(stamp_ns, pose); },
+                          [&](const SensorMessage& message) {
+                            recorder.deliver(message);
+                            return !recorder.faulted();
+                          }});
+  if (!whole) recorder.set_fault(kInterrupted);
   RunRecord record = recorder.finish();
   colour_map(scenario, surroundings, world_from_body, record);
   return record;
+}
+
+bool simulate(const Scenario& scenario, const World& world, const RayScene& rays, const SessionOptions& options,
+              const SessionListener& listener) {
+  const Trajectory world_from_body = make_body_trajectory(scenario, world, rays);
+  const std::unique_ptr<OwnBody> own_body = own_body_of(scenario);
+  return run(scenario, Surroundings{world, rays, own_body.get()}, world_from_body, options, listener);
+}
+
+RunRecord run_recording(const Recording& recording, const SessionOptions& options, Estimator& estimator) {
+  Recorder recorder(estimator, recording.start_ns, recording.end_ns);
+  const double span_ns = std::max(1.0, static_cast<double>(recording.end_ns - recording.start_ns));
+  std::optional<std::int64_t> first_ns;
+  std::int64_t last_ns = 0;
+  double reported = 0.0;
+  while (!recorder.faulted()) {
+    const auto message = recording.messages();
+    if (!message) break;
+    recorder.deliver(*message);
+    last_ns = first_ns ? std::max(last_ns, message->delivery_ns) : message->delivery_ns;
+    if (!first_ns) first_ns = message->delivery_ns;
+    const double share = std::clamp(static_cast<double>(last_ns - recording.start_ns) / span_ns, 0.0, 1.0);
+    if (!options.progress || share < reported + kReportedShare) continue;
+    reported = share;
+    if (!options.progress(share)) recorder.set_fault(kInterrupted);
+  }
+  for (const auto& [stamp_ns, pose] : recording.truth) {
+    if (first_ns && *first_ns <= stamp_ns && stamp_ns <= last_ns) recorder.add_truth(stamp_ns, pose);
+  }
+  return recorder.finish();
 }
 
 }  // namespace plumbline

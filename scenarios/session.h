@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "scenarios/recording.h"
 #include "scenarios/run_record.h"
 #include "scenarios/scenario.h"
 #include "sim/ray_scene.h"
@@ -22,6 +23,17 @@ World make_world(const Scenario& scenario);
 /// The body's exact motion in a scenario, stamps counted from 0. @throws InputError
 Trajectory make_body_trajectory(const Scenario& scenario, const World& world, const RayScene& rays);
 
+/// Who is told of a session as it goes on: of the truth, which is always ahead of the messages, and of each message in
+/// order of arrival, the lost ones included; the latter gives false to end the session there.
+struct SessionListener {
+  std::function<void(std::int64_t stamp_ns, const Pose& world_from_body)> truth;
+  std::function<bool(const SensorMessage&)> message;
+};
+
+/// Simulates a scenario's world, motion and sensors without an estimator. @return false if `progress` ended it
+bool simulate(const Scenario& scenario, const World& world, const RayScene& rays, const SessionOptions& options,
+              const SessionListener& listener);
+
 /// Runs a scenario in lock-step: world, motion, sensors, estimator. A fault of the estimator ends the run and is kept
 /// in the record; bad input throws InputError before anything is simulated.
 ///
@@ -34,5 +46,8 @@ RunRecord run_session(const Scenario& scenario, const World& world, const RaySce
 /// The same with an estimator of the caller's.
 RunRecord run_session(const Scenario& scenario, const World& world, const RayScene& rays, const SessionOptions& options,
                       Estimator& estimator);
+
+/// Drives an estimator with recorded messages. Of the truth, what lies within the messages' span is kept.
+RunRecord run_recording(const Recording& recording, const SessionOptions& options, Estimator& estimator);
 
 }  // namespace plumbline

@@ -81,10 +81,16 @@ LidarHit LidarCaster::cast(const HeadMotion& motion, const HeadRay& ray, std::in
   const double time_s = 1e-9 * static_cast<double>(start_ns_) + 1e-12 * static_cast<double>(time_ps);
   const RayHit hit = window_.cast(in_world.origin, in_world.direction, 0.0, max_range_m_, time_s);
   LidarHit found;
-  if (hit.hit) found = hit_on(surroundings_.world, hit, in_world);
+  if (hit.hit) {
+    found = hit_on(surroundings_.world, hit, in_world);
+    found.stands = surroundings_.world.mover_of(hit.geom) < 0;
+  }
   if (own_body_) {
     const LidarHit own = hit_on_vehicle(motion, ray, hit.hit ? hit.range_m : max_range_m_);
-    if (!own.is_none()) found = own;
+    if (!own.is_none()) {
+      found = own;
+      found.is_own = true;
+    }
   }
   if (!found.is_none())
     found.point = (in_world.origin - place_ + double{found.range_m} * in_world.direction).cast<float>();

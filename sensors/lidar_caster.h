@@ -17,6 +17,8 @@ struct LidarHit {
   float range_m = 0.0F;                              ///< 0: nothing
   float reflectivity = 0.0F;
   float cos_incidence = 0.0F;
+  bool stands = false;  ///< on the world that stands still
+  bool is_own = false;  ///< on the vehicle that carries the lidar
 
   bool is_none() const { return range_m == 0.0F; }
   /// Whether another ray's hit lies on this hit's plane, or both meet nothing.

@@ -8,6 +8,7 @@
 #include "sim/scenes/bridge.h"
 #include "sim/scenes/building.h"
 #include "sim/scenes/campus.h"
+#include "sim/scenes/composite_loop.h"
 #include "sim/scenes/conference_room.h"
 #include "sim/scenes/corridor.h"
 #include "sim/scenes/dark_room.h"
@@ -72,11 +73,11 @@ SceneValues complete_values(const SceneInfo& scene, const SceneValues& overrides
 
 const std::vector<SceneInfo>& scene_library() {
   static const std::vector<SceneInfo> scenes = {
-      garage_scene(),   corridor_scene(), tunnel_scene(),          hall_scene(),           lobby_scene(),
-      building_scene(), house_scene(),    conference_room_scene(), dark_room_scene(),      striped_walls_scene(),
-      sphere_scene(),   flat_scene(),     ground_and_wall_scene(), street_scene(),         campus_scene(),
-      highway_scene(),  bridge_scene(),   orchard_scene(),         vegetated_road_scene(), trail_scene(),
-      lawn_scene(),     shed_site_scene()};
+      garage_scene(),   corridor_scene(),  tunnel_scene(),          hall_scene(),           lobby_scene(),
+      building_scene(), house_scene(),     conference_room_scene(), dark_room_scene(),      striped_walls_scene(),
+      sphere_scene(),   flat_scene(),      ground_and_wall_scene(), street_scene(),         campus_scene(),
+      highway_scene(),  bridge_scene(),    orchard_scene(),         vegetated_road_scene(), trail_scene(),
+      lawn_scene(),     shed_site_scene(), composite_loop_scene()};
   return scenes;
 }
 

@@ -22,8 +22,12 @@ int run_program(int argc, char** argv) {
   Action chosen;
   add_run_command(app, chosen);
   add_evaluate_command(app, chosen);
+  add_host_command(app, chosen);
+  add_export_command(app, chosen);
   add_list_command(app, chosen);
   add_merge_command(app, chosen);
+  add_replay_command(app, chosen);
+  add_regress_command(app, chosen);
   add_report_command(app, chosen);
   add_sweep_command(app, chosen);
   try {

@@ -31,6 +31,7 @@ class PoseTrack {
   /// Moves the whole track rigidly: every pose becomes left * pose.
   void premultiply(const Pose& left);
 
+  const std::deque<Stamped>& poses() const { return poses_; }
   bool empty() const { return poses_.empty(); }
   std::size_t size() const { return poses_.size(); }
   std::int64_t first_ns() const { return poses_.front().stamp_ns; }

@@ -1,6 +1,7 @@
 #include "estimator/lidar/features.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -84,8 +85,8 @@ class Extraction {
     std::vector<bool> taken(static_cast<std::size_t>(table_.size()), false);
     std::vector<EdgeCandidate> candidates;
     for (int r = 0; r < table_.ring_count(); ++r) {
-      Column above(table_, table_.ring_across(r, 1));
-      Column below(table_, table_.ring_across(r, -1));
+      Across above(table_, r, 1);
+      Across below(table_, r, -1);
       const int begin = table_.ring_begin(r);
       const int count = table_.ring_end(r) - begin;
       for (int s = 0; s < kSectors; ++s) {
@@ -101,13 +102,13 @@ class Extraction {
     std::vector<int> counts;
     FlatIndex index(4096);
     for (int r = 0; r < table_.ring_count(); ++r) {
-      Column above(table_, table_.ring_across(r, 1));
-      Column below(table_, table_.ring_across(r, -1));
+      Across above(table_, r, 1);
+      Across below(table_, r, -1);
       for (int i = table_.ring_begin(r); i < table_.ring_end(r); ++i) {
         if (surface(i).half_window == 0) continue;
         const Eigen::Vector3f normal = normal_at(i, above, below);
         if (normal.isZero()) continue;
-        add_to_cell({table_.position(i), table_.intensity(i), normal, 0.0F, r}, index, cells, counts);
+        add_to_cell({table_.position(i), table_.intensity(i), normal, 0.0F, seconds(i), r}, index, cells, counts);
       }
     }
     for (FeaturePoint& cell : cells) cell.normal.normalize();
@@ -115,24 +116,47 @@ class Extraction {
   }
 
  private:
-  /// Walks another ring in step with the one being read and finds the return of the same firing.
-  class Column {
+  /// Walks other rings on one side in step with the one being read, and finds the return beside each of its own.
+  class Across {
    public:
-    Column(const RingTable& table, int ring) : table_(table) {
-      if (ring < 0) return;
-      next_ = table.ring_begin(ring);
-      end_ = table.ring_end(ring);
+    Across(const RingTable& table, int ring, int direction) : table_(table) {
+      for (int k = 1, at = ring; k <= kFarthestLine; ++k) {
+        at = table.ring_across(at, direction);
+        if (at < 0) return;
+        if ((k & (k - 1)) != 0) continue;
+        walks_.at(static_cast<std::size_t>(count_++)) = {table.ring_begin(at), table.ring_end(at)};
+        if (!table.lines_in_turn()) return;
+      }
     }
-    /// -1 where that firing had no return in this ring.
-    int at(std::int32_t offset_ns) {
-      while (next_ < end_ && table_.offset_ns(next_) < offset_ns - kFiring_ns) ++next_;
-      return next_ < end_ && table_.offset_ns(next_) <= offset_ns + kFiring_ns ? next_ : -1;
+    /// The return of the same firing; of lines in turn, or without times, that of the nearest direction; -1 for none.
+    /// Lines in turn meet on the motor's axis: near it, a line further off is read.
+    int at(int i) {
+      if (!table_.lines_in_turn() && table_.timed()) return count_ > 0 ? of_firing(table_.offset_ns(i)) : -1;
+      for (int w = 0; w < count_; ++w) {
+        Walk& walk = walks_.at(static_cast<std::size_t>(w));
+        while (walk.next + 1 < walk.end && apart(i, walk.next + 1) <= apart(i, walk.next)) ++walk.next;
+        if (apart(i, walk.next) >= RingTable::kCrossAngle) return walk.next;
+      }
+      return -1;
     }
 
    private:
+    static constexpr int kFarthestLine = 8;  // lines 1, 2, 4 and 8 are read
+    struct Walk {
+      int next = 0;
+      int end = 0;
+    };
+
+    int of_firing(std::int32_t offset_ns) {
+      Walk& walk = walks_.front();
+      while (walk.next < walk.end && table_.offset_ns(walk.next) < offset_ns - kFiring_ns) ++walk.next;
+      return walk.next < walk.end && table_.offset_ns(walk.next) <= offset_ns + kFiring_ns ? walk.next : -1;
+    }
+    float apart(int i, int j) const { return (table_.direction(i) - table_.direction(j)).norm(); }
+
     const RingTable& table_;
-    int next_ = 0;
-    int end_ = 0;
+    std::array<Walk, 4> walks_{};
+    int count_ = 0;
   };
 
   Shape& shape(int i) { return shapes_[static_cast<std::size_t>(i)]; }
@@ -140,6 +164,7 @@ class Extraction {
   /// The planar patch around a return, at the largest scale at which it is planar.
   const Shape& surface(int i) const { return surfaces_[static_cast<std::size_t>(i)]; }
   const Shape& patch(int i) const { return surface(i).half_window > 0 ? surface(i) : shape(i); }
+  float seconds(int i) const { return 1e-9F * static_cast<float>(table_.offset_ns(i)); }
   Eigen::Vector3f beam(int i) const { return (table_.position(i) - origin_).normalized(); }
 
   int wanted_half_window(int ring, int i) const {
@@ -167,7 +192,7 @@ class Extraction {
     return result;
   }
 
-  void edge_candidates(int first, int end, int ring, Column& above, Column& below,
+  void edge_candidates(int first, int end, int ring, Across& above, Across& below,
                        std::vector<EdgeCandidate>& candidates) const {
     candidates.clear();
     for (int i = first; i < end; ++i) {
@@ -208,9 +233,9 @@ class Extraction {
 
   /// Where the same surface steps almost along the beam from ring to ring, a ring bends sharply on a smooth surface
   /// (the floor of a round tunnel): grazing, as much as a wall seen edge-on.
-  bool runs_along_beam(int i, Column& above, Column& below) const {
-    const Eigen::Vector3f up = step_across(i, above.at(table_.offset_ns(i)));
-    const Eigen::Vector3f down = step_across(i, below.at(table_.offset_ns(i)));
+  bool runs_along_beam(int i, Across& above, Across& below) const {
+    const Eigen::Vector3f up = step_across(i, above.at(i));
+    const Eigen::Vector3f down = step_across(i, below.at(i));
     const auto along = [&](const Eigen::Vector3f& step) {
       return !step.isZero() && step.cross(beam(i)).norm() < kSilhouetteGrazing * step.norm();
     };
@@ -230,7 +255,8 @@ class Extraction {
       const std::optional<Eigen::Vector3f> position = edge_position(c);
       if (!position) continue;
       // The edge lies anywhere between two beams: uniform, so a spacing over sqrt(12).
-      edges.push_back({*position, table_.intensity(c.index), Eigen::Vector3f::Zero(), 0.289F * c.step.norm(), ring});
+      edges.push_back({*position, table_.intensity(c.index), Eigen::Vector3f::Zero(), 0.289F * c.step.norm(),
+                       seconds(c.index), ring});
       const int first = std::max(table_.run_begin(c.index), c.index - c.half_window);
       const int last = std::min(table_.run_end(c.index) - 1, c.index + c.half_window);
       for (int i = first; i <= last; ++i) taken[static_cast<std::size_t>(i)] = true;
@@ -279,9 +305,9 @@ class Extraction {
 
   /// Unit normal towards the sensor from the ring's own tangent and the steps to the rings above and below; zero where
   /// they do not tell one or the beam grazes the surface.
-  Eigen::Vector3f normal_at(int i, Column& above, Column& below) const {
-    const Eigen::Vector3f up = step_across(i, above.at(table_.offset_ns(i)));
-    const Eigen::Vector3f down = -step_across(i, below.at(table_.offset_ns(i)));
+  Eigen::Vector3f normal_at(int i, Across& above, Across& below) const {
+    const Eigen::Vector3f up = step_across(i, above.at(i));
+    const Eigen::Vector3f down = -step_across(i, below.at(i));
     Eigen::Vector3f across = up + down;
     if (!up.isZero() && !down.isZero() && up.normalized().dot(down.normalized()) < kCrossBend) {
       across = up.norm() < down.norm() ? up : down;  // a crease: the nearer neighbour is likelier on this side of it
@@ -308,6 +334,7 @@ class Extraction {
     const float share = 1.0F / static_cast<float>(++counts[at]);
     mean.position += share * (point.position - mean.position);
     mean.intensity += share * (point.intensity - mean.intensity);
+    mean.offset_s += share * (point.offset_s - mean.offset_s);
     mean.normal += point.normal;
   }
 
@@ -325,6 +352,18 @@ FeatureCloud extract_features(const LidarScan& scan, const std::vector<Eigen::Ve
   const RingTable table(scan, points_in_body, calibration);
   const Extraction extraction(table, calibration);
   return {extraction.edges(), extraction.planes()};
+}
+
+void move(FeatureCloud& features, const Pose& target_from_source, float later_s) {
+  const Eigen::Matrix3f rotation = target_from_source.rotation.toRotationMatrix().cast<float>();
+  const Eigen::Vector3f translation = target_from_source.translation.cast<float>();
+  for (std::vector<FeaturePoint>* kind : {&features.edges, &features.planes}) {
+    for (FeaturePoint& f : *kind) {
+      f.position = rotation * f.position + translation;
+      f.normal = rotation * f.normal;
+      f.offset_s += later_s;
+    }
+  }
 }
 
 }  // namespace plumbline

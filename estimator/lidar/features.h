@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "estimator/geometry/pose.h"
 #include "estimator/messages.h"
 
 namespace plumbline {
@@ -13,6 +14,7 @@ struct FeaturePoint {
   float intensity = 0.0F;
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< planes: unit, in B, towards the sensor; edges: zero
   float spread_m = 0.0F;  ///< edges: standard deviation across the edge that the spacing of the beams adds
+  float offset_s = 0.0F;  ///< since the scan's stamp: when it was measured, of a plane's cell the mean
   int ring = 0;           ///< of its first return
 };
 
@@ -21,6 +23,9 @@ struct FeatureCloud {
   std::vector<FeaturePoint> edges;
   std::vector<FeaturePoint> planes;
 };
+
+/// Carries features over to another frame, and their times to a stamp that is earlier by later_s.
+void move(FeatureCloud& features, const Pose& target_from_source, float later_s);
 
 /// Curvature-based extraction per ring with all rejection rules: taken neighbours, occlusion edges, grazing surfaces.
 /// Planes are dense but evenly spread: the mean of the planar points of each small cell of space.

@@ -12,8 +12,6 @@ constexpr float kGapConstant_m = 0.1F;
 constexpr float kGapSlope = 5.7F;
 // Beams further apart than this many spacings have lost the returns between them.
 constexpr float kMissingBeams = 3.0F;
-// Normals are read across rings at least this far apart [rad]; across closer ones range noise would tilt them.
-constexpr float kCrossAngle = 0.025F;
 
 }  // namespace
 
@@ -21,6 +19,9 @@ RingTable::RingTable(const LidarScan& scan, const std::vector<Eigen::Vector3f>& 
                      const Calibration& calibration) {
   sort_by_ring(scan, points_in_body, calibration);
   measure_rings();
+  lines_in_turn_ = follow_each_other();
+  timed_ = std::any_of(entries_.begin(), entries_.end(),
+                       [&](const Entry& e) { return e.offset_ns != entries_.front().offset_ns; });
   cut_runs();
   sums_.reserve(entries_.size() + 1);
   sums_.emplace_back(Eigen::Vector3d::Zero());
@@ -75,10 +76,23 @@ void RingTable::measure_rings() {
   }
 }
 
+/// Rings that fire together overlap in time, lines in turn do not; of a single ring nothing can be said.
+bool RingTable::follow_each_other() const {
+  int filled = 0;
+  std::int32_t last_ns = 0;
+  for (int r = 0; r < ring_count(); ++r) {
+    if (ring_begin(r) == ring_end(r)) continue;
+    if (filled++ > 0 && offset_ns(ring_begin(r)) <= last_ns) return false;
+    last_ns = offset_ns(ring_end(r) - 1);
+  }
+  return filled > 1;
+}
+
 int RingTable::ring_across(int ring, int direction) const {
   const float elevation = rings_[static_cast<std::size_t>(ring)].elevation;
   for (int r = ring + direction; r >= 0 && r < ring_count(); r += direction) {
     const bool filled = ring_end(r) > ring_begin(r);
+    if (filled && lines_in_turn_) return r;
     if (filled && std::abs(rings_[static_cast<std::size_t>(r)].elevation - elevation) >= kCrossAngle) return r;
   }
   return -1;

@@ -20,10 +20,18 @@ class RingTable {
   int ring_end(int ring) const { return begin_[static_cast<std::size_t>(ring) + 1]; }
   /// Angle between neighbouring beams of a ring [rad], the median.
   float beam_spacing(int ring) const { return rings_[static_cast<std::size_t>(ring)].spacing; }
-  /// The nearest ring at least kCrossAngle above (direction 1) or below (-1), or -1.
+  /// True of a line scanner turned by a motor: its rings are lines that follow each other in time.
+  bool lines_in_turn() const { return lines_in_turn_; }
+  /// False where all returns bear one time, as in recordings that were motion-compensated.
+  bool timed() const { return timed_; }
+  /// Least angle between rings across which normals are read [rad]; across closer ones range noise would tilt them.
+  static constexpr float kCrossAngle = 0.025F;
+  /// The nearest ring at least kCrossAngle above (direction 1) or below (-1), or -1. Of lines in turn the next one.
   int ring_across(int ring, int direction) const;
 
   const Eigen::Vector3f& position(int i) const { return entry(i).position; }
+  /// Of the beam, unit, in L at its own time.
+  const Eigen::Vector3f& direction(int i) const { return entry(i).direction; }
   float range(int i) const { return entry(i).range; }
   float intensity(int i) const { return entry(i).intensity; }
   std::int32_t offset_ns(int i) const { return entry(i).offset_ns; }
@@ -58,12 +66,15 @@ class RingTable {
   void sort_by_ring(const LidarScan& scan, const std::vector<Eigen::Vector3f>& points_in_body,
                     const Calibration& calibration);
   void measure_rings();
+  bool follow_each_other() const;
   void cut_runs();
   bool on_one_surface(int i, int j, float spacing) const;
 
   std::vector<Entry> entries_;
   std::vector<int> begin_;
   std::vector<Ring> rings_;
+  bool lines_in_turn_ = false;
+  bool timed_ = false;
   std::vector<Eigen::Vector3d> sums_;  // sums_[i] is the sum over [0, i)
 };
 

@@ -140,7 +140,7 @@ class MapConstraints {
     ResidualRows rows;
     linearize(solved.pose, rows);
     const int n = solved.spectrum.well_conditioned;
-    if (n == 0 || static_cast<int>(solved.weights.size()) != rows.feature_count()) return {};
+    if (n == 0 || static_cast<int>(solved.weights.size()) < rows.feature_count()) return {};
     using Gain = Eigen::Matrix<double, 6, 3>;
     std::map<int, Gain> gain_of_ring;
     double square_sum = 0.0;
@@ -232,7 +232,8 @@ ScanMatcher::ScanMatcher(ScanMatcher&&) noexcept = default;
 ScanMatcher& ScanMatcher::operator=(ScanMatcher&&) noexcept = default;
 ScanMatcher::~ScanMatcher() = default;
 
-SolveResult ScanMatcher::match(const FeatureCloud& features, const PosePrior& world_from_body) {
+SolveResult ScanMatcher::match(const FeatureCloud& features, const PosePrior& world_from_body,
+                               const Linearizer& further_rows) {
   Impl& m = *impl_;
   const FeatureCloud used = {every_nth(features.edges, m.config.edge_budget),
                              pick(features.planes, sample_by_direction(features.planes, m.config.plane_budget))};
@@ -241,7 +242,11 @@ SolveResult ScanMatcher::match(const FeatureCloud& features, const PosePrior& wo
   MapConstraints constraints(m.edges, m.planes, m.edge_limits, m.plane_limits, m.sigma_m, used);
   const SolveResult solved = solve(
       world_from_body.mean, world_from_body,
-      [&](const Pose& pose, ResidualRows& rows) { constraints.linearize(pose, rows); }, m.options);
+      [&](const Pose& pose, ResidualRows& rows) {
+        constraints.linearize(pose, rows);
+        if (further_rows) further_rows(pose, rows);
+      },
+      m.options);
   m.drift = constraints.drift(solved, m.body_from_lidar.translation, m.bias_sigma_m);
   return solved;
 }

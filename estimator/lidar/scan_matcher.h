@@ -48,7 +48,9 @@ class ScanMatcher {
   ~ScanMatcher();
 
   /// Solves for world_from_body; starts at the prior's mean. With an empty map nothing is well-conditioned.
-  SolveResult match(const FeatureCloud& features_in_body, const PosePrior& world_from_body);
+  /// @param further_rows  of other sensors that take part in the same problem, after the scan's own; empty: none
+  SolveResult match(const FeatureCloud& features_in_body, const PosePrior& world_from_body,
+                    const Linearizer& further_rows = {});
 
   /// Of the last match.
   const MatchDrift& drift() const;

@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <stdexcept>
 
 #include "estimator/estimator.h"
+#include "estimator/pipeline/demo.h"
+#include "estimator/pipeline/loam.h"
 #include "estimator/pipeline/vloam.h"
 
 namespace plumbline {
@@ -34,23 +37,68 @@ const std::vector<EstimatorInfo>& estimator_library() {
       {"vloam", "IMU prediction, visual odometry with lidar depth, scan matching (V-LOAM)"},
       {"vio", "IMU prediction and visual odometry with lidar depth; scan matching off"},
       {"imu_lidar", "IMU prediction and scan matching; vision off"},
+      {"joint", "IMU prediction, and one problem of lidar and camera rows at every scan"},
       {"imu", "dead reckoning"},
+      {"loam", "lidar odometry within each sweep and mapping once a sweep, with or without the IMU (LOAM)"},
+      {"loam_imu_orientation", "the same with the attitude as the gyro integrates it; only translation is estimated"},
+      {"demo", "frame-to-frame visual odometry with depth and bundle adjustment, no IMU (DEMO)"},
+      {"demo_no_ba", "the same without bundle adjustment"},
+      {"demo_matched", "frame-to-frame visual odometry and scan matching, no IMU (DEMO + scan matching)"},
+      {"demo_loam", "frame-to-frame visual odometry, refined sweep to sweep and sweep to map, no IMU (three stages)"},
+      {"vo_depth_only", "frame-to-frame visual odometry that uses only features with measured depth, no IMU"},
   };
   return library;
 }
 
-std::unique_ptr<Estimator> make_estimator(const std::string& name, const Calibration& calibration,
-                                          const EstimatorConfig& config) {
+namespace {
+
+std::unique_ptr<Estimator> make_vloam(const std::string& name, const Calibration& calibration,
+                                      const EstimatorConfig& config) {
   EstimatorConfig chosen = config;
   if (name == "vio" || name == "imu") chosen.lidar_enabled = false;
   if (name == "imu_lidar" || name == "imu") chosen.vision_enabled = false;
-  const bool known = name == "vloam" || name == "vio" || name == "imu_lidar" || name == "imu";
-  if (!known) throw std::invalid_argument("estimator: unknown name '" + name + "'; known: vloam, vio, imu_lidar, imu");
+  const Coupling coupling = name == "joint" ? Coupling::kJoint : Coupling::kSequential;
+  return std::make_unique<Vloam>(calibration, chosen, VisionConfig{}, ScanMatcherConfig{}, coupling);
+}
+
+std::unique_ptr<Estimator> make_demo(const std::string& name, const Calibration& calibration,
+                                     const EstimatorConfig& config) {
+  DemoConfig stages;
+  // Matched to the map every sweep, the motion is corrected long before a window of forty images is full.
+  stages.bundle_adjustment = name == "demo";
+  stages.map_depth_only = name == "vo_depth_only";
+  stages.scan_matching = name == "demo_matched";
+  stages.sweep_refinement = name == "demo_loam";
+  return std::make_unique<Demo>(calibration, config, stages);
+}
+
+std::unique_ptr<Estimator> make_loam(const std::string& name, const Calibration& calibration,
+                                     const EstimatorConfig& config) {
+  if (name == "loam_imu_orientation") return std::make_unique<Loam>(calibration, config, ImuUse::kOrientation);
+  return std::make_unique<Loam>(calibration, config, config.imu_enabled ? ImuUse::kFull : ImuUse::kNone);
+}
+
+void validate_or_throw(const std::string& name, const Calibration& calibration) {
+  const auto& library = estimator_library();
+  if (std::none_of(library.begin(), library.end(), [&](const EstimatorInfo& info) { return info.name == name; })) {
+    std::string known;
+    for (const EstimatorInfo& info : library) known += (known.empty() ? "" : ", ") + info.name;
+    throw std::invalid_argument("estimator: unknown name '" + name + "'; known: " + known);
+  }
   if (calibration.has_camera && (calibration.camera.width <= 0 || calibration.camera.height <= 0 ||
                                  !(calibration.camera.fx > 0.0) || !(calibration.camera.fy > 0.0))) {
     throw std::invalid_argument("estimator: camera intrinsics must be positive");
   }
-  return std::make_unique<Vloam>(calibration, chosen);
+}
+
+}  // namespace
+
+std::unique_ptr<Estimator> make_estimator(const std::string& name, const Calibration& calibration,
+                                          const EstimatorConfig& config) {
+  validate_or_throw(name, calibration);
+  if (name.starts_with("loam")) return make_loam(name, calibration, config);
+  const bool demo = name.starts_with("demo") || name == "vo_depth_only";
+  return demo ? make_demo(name, calibration, config) : make_vloam(name, calibration, config);
 }
 
 }  // namespace plumbline

@@ -11,6 +11,7 @@ constexpr double kLargestRate = 200.0;    // [rad/s], five times what consumer g
 constexpr double kLargestForce = 2000.0;  // [m/s^2], 200 g
 // [ns], 126 years about the epoch: differences of such stamps do not overflow.
 constexpr std::int64_t kLargestStamp_ns = 4'000'000'000'000'000'000;
+constexpr std::size_t kMostPoints = 20'000;    // in one frame
 constexpr float kLargestCoordinate = 5000.0F;  // [m], beyond the reach of any lidar on a robot
 
 bool finite(const ImuSample& s) { return s.angular_rate.allFinite() && s.specific_force.allFinite(); }
@@ -45,6 +46,20 @@ bool same_points(const std::vector<LidarPoint>& a, const std::vector<LidarPoint>
 }
 
 }  // namespace
+
+MessageUse message_use(const Calibration& calibration, const EstimatorConfig& config) {
+  MessageUse use;
+  if (calibration.has_camera && config.vision_enabled) {
+    use.cameras[0] = use.depth_cameras[0] = {calibration.camera.width, calibration.camera.height};
+    for (const FurtherCamera& camera : calibration.further_cameras) {
+      const GateImage image{camera.intrinsics.width, camera.intrinsics.height};
+      use.cameras[camera.camera_id] = use.depth_cameras[camera.camera_id] = image;
+    }
+  }
+  use.lidar = calibration.has_lidar;
+  use.imu = config.imu_enabled;
+  return use;
+}
 
 std::optional<ImuSample> MessageGate::admit(const ImuSample& received) {
   ImuSample sample = received;
@@ -106,6 +121,20 @@ void MessageGate::admit(const CameraFrame& frame) {
   held_.emplace(frame.stamp_ns, frame);
 }
 
+void MessageGate::admit(const PointFrame& frame) {
+  if (use_.cameras.empty()) return drop(Module::kVision, "disabled");
+  if (!use_.cameras.contains(frame.camera_id)) return drop(Module::kVision, "further cameras are not used");
+  std::optional<std::int64_t>& last_ns = last_points_ns_[frame.camera_id];
+  if (const char* reason = untimely(frame.stamp_ns, last_ns)) return drop(Module::kVision, reason);
+  if (frame.points.size() > kMostPoints) return drop(Module::kVision, "wrong size");
+  if (frame.points.empty()) return drop(Module::kVision, "empty");
+  const bool all_finite = std::all_of(frame.points.begin(), frame.points.end(),
+                                      [](const PointFrame::Point& point) { return point.pixel.allFinite(); });
+  if (!all_finite) return drop(Module::kVision, "not finite");
+  last_ns = frame.stamp_ns;
+  held_.emplace(frame.stamp_ns, frame);
+}
+
 void MessageGate::admit(const DepthFrame& frame) {
   const auto image = use_.depth_cameras.find(frame.camera_id);
   if (image == use_.depth_cameras.end()) return drop(Module::kVision, "depth images are not used");
@@ -148,8 +177,7 @@ MessageCounts MessageGate::counts(Module module) const {
 
 std::int64_t stamp_of(const MessageGate::Message& message) {
   if (const auto* scan = std::get_if<LidarScan>(&message)) return scan->end_ns;
-  if (const auto* depth = std::get_if<DepthFrame>(&message)) return depth->stamp_ns;
-  return std::get<CameraFrame>(message).stamp_ns;
+  return std::visit([](const auto& payload) { return payload.stamp_ns; }, message);
 }
 
 Module module_of(const MessageGate::Message& message) {

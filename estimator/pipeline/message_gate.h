@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "estimator/estimator.h"
+#include "estimator/vision/point_frame.h"
 
 /// The border between drivers and a pipeline: checks every message, puts camera, depth and lidar messages in order, and
 /// holds them until the IMU has reached their stamps. What cannot be used is counted with its reason and dropped.
@@ -28,9 +29,13 @@ struct MessageUse {
   bool imu = true;  ///< false: samples serve as a clock only, their readings are neither read nor checked
 };
 
+/// Grey images of camera 0 and grey or depth images of the further ones, where vision is on; the lidar where there is
+/// one.
+MessageUse message_use(const Calibration& calibration, const EstimatorConfig& config);
+
 class MessageGate {
  public:
-  using Message = std::variant<CameraFrame, DepthFrame, LidarScan>;
+  using Message = std::variant<CameraFrame, PointFrame, DepthFrame, LidarScan>;
 
   explicit MessageGate(MessageUse use) : use_(std::move(use)) {}
 
@@ -47,6 +52,7 @@ class MessageGate {
   /// to go with", kLongestLead_ns ahead of it or more waiting than kMostWaiting. Returns of a scan that are not finite,
   /// or farther than any lidar sees, are left out of it.
   void admit(const CameraFrame& frame);
+  void admit(const PointFrame& frame);
   void admit(const DepthFrame& frame);
   void admit(const LidarScan& scan);
 
@@ -87,6 +93,7 @@ class MessageGate {
   std::optional<std::int64_t> leap_ns_;  ///< stamp of the last sample refused as ahead of time
   int agreeing_ = 0;                     ///< samples in a row that are ahead of time alike
   std::map<int, CameraMemory> cameras_;
+  std::map<int, std::optional<std::int64_t>> last_points_ns_;  ///< of point frames, by camera id
   std::map<int, DepthMemory> depth_cameras_;
   std::optional<std::int64_t> last_scan_ns_;
   std::vector<LidarPoint> last_points_;

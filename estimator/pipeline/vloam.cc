@@ -1,16 +1,16 @@
 #include "estimator/pipeline/vloam.h"
 
-#include <chrono>
 #include <cmath>
 #include <utility>
 
 #include "estimator/lidar/deskew.h"
 #include "estimator/lidar/features.h"
+#include "estimator/pipeline/module_health.h"
 
 namespace plumbline {
 namespace {
 
-constexpr std::int64_t kTrackLength_ns = MessageGate::kLongestDelay_ns;
+constexpr std::int64_t kTrackLength_ns = MessageGate::kLongestDelay_ns + SweepAssembler::kLongest_ns;
 constexpr std::int64_t kIncrementWindow_ns = 1'000'000'000;
 constexpr std::int64_t kMaxImuGap_ns = 500'000'000;
 
@@ -21,19 +21,6 @@ constexpr double kLidarInflation = 1.0;
 
 // The estimator stops believing its position when the filter's own standard deviation exceeds this [m].
 constexpr double kLostSigma_m = 10.0;
-
-class StopWatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-ModuleMode mode_of(int well_conditioned) {
-  if (well_conditioned == 6) return ModuleMode::kSolved;
-  return well_conditioned == 0 ? ModuleMode::kBypassed : ModuleMode::kPartial;
-}
 
 /// Without an IMU its samples are a clock: no rate, no force, and "biases" free enough to be the motion itself, which
 /// makes the mechanisation a constant-rate, constant-acceleration predictor.
@@ -51,25 +38,17 @@ Calibration effective(Calibration calibration, const EstimatorConfig& config) {
   return calibration;
 }
 
-MessageUse use_of(const Calibration& calibration, const EstimatorConfig& config) {
-  MessageUse use;
-  if (calibration.has_camera && config.vision_enabled) {
-    use.cameras[0] = {calibration.camera.width, calibration.camera.height};
-  }
-  use.lidar = calibration.has_lidar;
-  use.imu = config.imu_enabled;
-  return use;
-}
-
 }  // namespace
 
-Vloam::Vloam(const Calibration& calibration, const EstimatorConfig& config)
+Vloam::Vloam(const Calibration& calibration, const EstimatorConfig& config, const VisionConfig& vision,
+             const ScanMatcherConfig& matcher, Coupling coupling)
     : calibration_(effective(calibration, config)),
       config_(config),
-      gate_(use_of(calibration_, config)),
+      coupling_(coupling),
+      gate_(message_use(calibration_, config)),
       initializer_(calibration_),
-      vision_(calibration_, VisionConfig{}, config.remapping),
-      matcher_(calibration_, ScanMatcherConfig{}, config.remapping) {}
+      vision_(calibration_, vision, config.remapping),
+      matcher_(calibration_, matcher, config.remapping) {}
 
 void Vloam::add(const ImuSample& received) {
   std::optional<ImuSample> sample = gate_.admit(received);
@@ -122,25 +101,48 @@ void Vloam::take_in(const Payload& payload) {
 void Vloam::add(const CameraFrame& frame) { take_in(frame); }
 void Vloam::add(const DepthFrame& frame) { take_in(frame); }
 void Vloam::add(const LidarScan& scan) { take_in(scan); }
+void Vloam::add(const PointFrame& frame) { take_in(frame); }
 
 void Vloam::handle(const MessageGate::Message& message) {
-  if (const auto* frame = std::get_if<CameraFrame>(&message)) return handle(*frame);
-  if (const auto* scan = std::get_if<LidarScan>(&message)) return handle(*scan);
+  std::visit([this](const auto& payload) { handle(payload); }, message);
 }
 
-void Vloam::handle(const CameraFrame& frame) {
+void Vloam::handle(const CameraFrame& frame) { see(frame); }
+void Vloam::handle(const PointFrame& frame) { see(frame); }
+
+template <typename Frame>
+void Vloam::see(const Frame& frame) {
   if (!track_.covers(frame.stamp_ns)) return gate_.drop(Module::kVision, "before the start");
   const StopWatch watch;
   gate_.count_used(Module::kVision);
+  if (frame.camera_id != 0) return vision_.add_stereo(frame);
   const Pose predicted = filter_->world_from_keyframe().inverse() * track_.at(frame.stamp_ns);
-  const SolveResult solved = vision_.process(frame, {predicted, filter_->keyframe_motion_covariance()});
-  correct([&] { filter_->update_keyframe_motion(solved, predicted, kVisionInflation); });
-  if (vision_.wants_keyframe()) {
-    const Pose world_from_body = track_.at(frame.stamp_ns);
-    filter_->set_keyframe(world_from_body);
-    vision_.start_keyframe(world_from_body);
+  const PosePrior prior{predicted, filter_->keyframe_motion_covariance()};
+  if (coupling_ == Coupling::kJoint) {
+    if (vision_.follow(frame, prior)) {
+      followed_ns_ = frame.stamp_ns;
+    } else {
+      start_keyframe_when_due(frame.stamp_ns);
+    }
+    return;
   }
+  const SolveResult solved = vision_.process(frame, prior);
+  correct([&] { filter_->update_keyframe_motion(solved, predicted, kVisionInflation); });
+  start_keyframe_when_due(frame.stamp_ns);
   report(frame.stamp_ns, Module::kVision, solved, predicted, watch.seconds());
+}
+
+void Vloam::start_keyframe_when_due(std::int64_t image_ns) {
+  if (!vision_.wants_keyframe()) return;
+  const Pose world_from_body = track_.at(image_ns);
+  filter_->set_keyframe(world_from_body);
+  vision_.start_keyframe(world_from_body);
+}
+
+void Vloam::handle(const DepthFrame& frame) {
+  if (!track_.covers(frame.stamp_ns)) return gate_.drop(Module::kVision, "before the start");
+  gate_.count_used(Module::kVision);
+  vision_.add_depth_image(frame, track_.at(frame.stamp_ns));
 }
 
 void Vloam::handle(const LidarScan& scan) {
@@ -150,25 +152,52 @@ void Vloam::handle(const LidarScan& scan) {
   gate_.count_used(Module::kLidar);
   const StopWatch watch;
   const auto points_in_body = deskew(scan, track_, calibration_.body_from_lidar, scan.end_ns);
-  if (config_.lidar_enabled) refine_with_scan(scan, points_in_body);
+  if (config_.lidar_enabled) {
+    const std::optional<LidarScan> sweep = sweeps_.add(scan);
+    const bool in_parts = sweep && sweep->points.size() != scan.points.size();
+    if (in_parts && track_.covers(sweep->stamp_ns)) {
+      refine_with_scan(*sweep, deskew(*sweep, track_, calibration_.body_from_lidar, sweep->end_ns));
+    } else if (sweep && !in_parts) {
+      refine_with_scan(scan, points_in_body);
+    }
+  }
 
   const Pose world_from_body = track_.at(scan.end_ns);
-  if (config_.vision_enabled) {
-    const Eigen::Isometry3f transform =
-        Eigen::Translation3f(world_from_body.translation.cast<float>()) * world_from_body.rotation.cast<float>();
-    std::vector<Eigen::Vector3f> points_in_world;
-    points_in_world.reserve(points_in_body.size());
-    for (const Eigen::Vector3f& p : points_in_body) points_in_world.push_back(transform * p);
-    vision_.add_depth_points(scan.end_ns, points_in_world);
-  }
+  if (config_.vision_enabled) vision_.add_depth_points(scan.end_ns, points_in_body, world_from_body);
   if (!health_.empty() && health_.back().module == Module::kLidar) health_.back().processing_s = watch.seconds();
+}
+
+/// Matches a scan to the map; in the joint problem, with the rows of the newest image, whose body stood a little before
+/// the scan's end.
+SolveResult Vloam::match(const FeatureCloud& features, const Pose& predicted) {
+  const PosePrior prior{predicted, filter_->map_from_body_covariance()};
+  const auto image_ns = std::exchange(followed_ns_, std::nullopt);
+  if (!image_ns || !track_.covers(*image_ns)) return matcher_.match(features, prior);
+  const Pose world_from_end = filter_->state().world_from_body;
+  const Pose end_from_image = world_from_end.inverse() * track_.at(*image_ns);
+  const Matrix6d d_image_d_end = adjoint(end_from_image.inverse());
+  const Pose keyframe_from_map = filter_->world_from_keyframe().inverse() * world_from_end * predicted.inverse();
+  int image_features = 0;
+  const SolveResult solved = matcher_.match(features, prior, [&](const Pose& map_from_body, ResidualRows& rows) {
+    ResidualRows of_image;
+    vision_.linearize(keyframe_from_map * map_from_body * end_from_image, of_image);
+    image_features = of_image.feature_count();
+    rows.append(of_image, d_image_d_end);
+  });
+  if (solved.spectrum.well_conditioned > 0) {
+    vision_.settle(keyframe_from_map * solved.pose * end_from_image,
+                   {solved.weights.end() - image_features, solved.weights.end()});
+  }
+  return solved;
 }
 
 void Vloam::refine_with_scan(const LidarScan& scan, const std::vector<Eigen::Vector3f>& points_in_body) {
   const FeatureCloud features = extract_features(scan, points_in_body, calibration_);
   const Pose predicted = filter_->map_from_body();
-  const SolveResult solved = matcher_.match(features, {predicted, filter_->map_from_body_covariance()});
+  const std::optional<std::int64_t> image_ns = followed_ns_;
+  const SolveResult solved = match(features, predicted);
   correct([&] { filter_->update_pose(solved, predicted, kLidarInflation); });
+  if (image_ns) start_keyframe_when_due(*image_ns);
   const Pose world_from_body = track_.at(scan.end_ns);
   const Eigen::Vector3d step_in_world = world_from_body.translation - last_scan_position_;
   path_m_ += step_in_world.norm();
@@ -194,18 +223,7 @@ void Vloam::correct(Update&& update) {
 
 void Vloam::report(std::int64_t stamp_ns, Module module, const SolveResult& solved, const Pose& predicted,
                    double seconds) {
-  ModuleHealth health;
-  health.stamp_ns = stamp_ns;
-  health.module = module;
-  health.mode = mode_of(solved.spectrum.well_conditioned);
-  health.eigenvalues = solved.spectrum.eigenvalues;
-  health.eigenvectors = solved.spectrum.eigenvectors;
-  health.well_conditioned = solved.spectrum.well_conditioned;
-  health.rows = solved.features;
-  health.inliers = solved.inliers;
-  health.correction = predicted.local(solved.pose);
-  health.processing_s = seconds;
-  health_.push_back(health);
+  health_.push_back(health_of(stamp_ns, module, solved, predicted, seconds));
 }
 
 /// The errors of successive steps share their causes, such as the velocity's error and the map's, so that the

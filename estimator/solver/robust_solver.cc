@@ -32,6 +32,12 @@ void ResidualRows::add(double residual_1, const Vector6d& jacobian_1, double res
   jacobians_.push_back(jacobian_2);
 }
 
+void ResidualRows::append(const ResidualRows& other, const Matrix6d& d_other_d_pose) {
+  for (const int row : other.first_row_) first_row_.push_back(row_count() + row);
+  residuals_.insert(residuals_.end(), other.residuals_.begin(), other.residuals_.end());
+  for (const Vector6d& jacobian : other.jacobians_) jacobians_.push_back(d_other_d_pose.transpose() * jacobian);
+}
+
 int ResidualRows::end_row(int feature) const {
   return feature + 1 < feature_count() ? first_row(feature + 1) : row_count();
 }

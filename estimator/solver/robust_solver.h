@@ -22,6 +22,9 @@ class ResidualRows {
   /// Two rows of one feature.
   void add(double residual_1, const Vector6d& jacobian_1, double residual_2, const Vector6d& jacobian_2);
 
+  /// The rows of a problem whose pose moves with this one's: its perturbation is d_other_d_pose times ours.
+  void append(const ResidualRows& other, const Matrix6d& d_other_d_pose);
+
   int row_count() const { return static_cast<int>(residuals_.size()); }
   int feature_count() const { return static_cast<int>(first_row_.size()); }
   double residual(int row) const { return residuals_[static_cast<std::size_t>(row)]; }

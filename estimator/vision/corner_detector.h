@@ -16,6 +16,11 @@ struct GreyView {
   int stride = 0;
 };
 
+/// A frame's pixels; width * height of them must be there.
+inline GreyView view_of(const CameraFrame& frame) {
+  return {frame.pixels.data(), frame.width, frame.height, frame.width};
+}
+
 struct CornerOptions {
   int grid_rows = 5;
   int grid_cols = 6;

@@ -23,11 +23,14 @@ constexpr double kRegistrationAngle = 2e-3;    // [rad], of points registered wi
 constexpr double kCurvatureShare = 0.05;       // of the triangle's depth spread, for surfaces that are not planes
 constexpr double kInsertionMargin = 30.0 * kDegree;
 constexpr std::size_t kMaxScans = 64;
+/// Of depth cameras that project a pattern, measured on the Kinect: Khoshelham and Elberink, Sensors 12, 2012.
+constexpr DepthNoise kDepthImageNoise{0.0, 1.43e-3};
 
 /// Points as the tree wants them: azimuth and polar angle in the camera, and the position they belong to.
 struct AngularPoints {
   std::vector<Eigen::Vector2f> angles;
   std::vector<Eigen::Vector3f> positions;
+  std::vector<DepthSource> sources;
 
   std::size_t kdtree_get_point_count() const { return angles.size(); }
   float kdtree_get_pt(std::size_t i, std::size_t axis) const { return angles[i][static_cast<Eigen::Index>(axis)]; }
@@ -50,6 +53,7 @@ float cross(const Eigen::Vector2f& a, const Eigen::Vector2f& b) { return a.x() *
 struct Neighbour {
   Eigen::Vector2f angle;  ///< relative to the ray
   Eigen::Vector3f position;
+  DepthSource source = DepthSource::kLidar;
 };
 
 /// Whether the ray, at the angular origin, passes through the triangle.
@@ -106,6 +110,7 @@ double spread_limit(double depth) { return std::max(kSpreadFloor, kSpreadShare *
 struct DepthMap::Impl {
   struct Scan {
     std::int64_t stamp_ns = 0;
+    DepthSource source = DepthSource::kLidar;
     std::vector<Eigen::Vector3f> points_in_world;
   };
 
@@ -124,7 +129,7 @@ struct DepthMap::Impl {
   }
   void gather_view(const Pose& world_from_camera);
   void find_neighbours(const Eigen::Vector3f& ray) const;
-  std::optional<InverseDepth> intersect(const Triangle& triangle, const Eigen::Vector3d& ray) const;
+  std::optional<MapDepth> intersect(const Triangle& triangle, const Eigen::Vector3d& ray) const;
 };
 
 DepthMap::DepthMap(const CameraIntrinsics& camera, const DepthMapConfig& config) : impl_(std::make_unique<Impl>()) {
@@ -136,9 +141,9 @@ DepthMap::DepthMap(DepthMap&&) noexcept = default;
 DepthMap& DepthMap::operator=(DepthMap&&) noexcept = default;
 DepthMap::~DepthMap() = default;
 
-void DepthMap::add(std::int64_t stamp_ns, const std::vector<Eigen::Vector3f>& points_in_world,
+void DepthMap::add(std::int64_t stamp_ns, DepthSource source, const std::vector<Eigen::Vector3f>& points_in_world,
                    const std::optional<Pose>& world_from_camera) {
-  Impl::Scan scan{stamp_ns, {}};
+  Impl::Scan scan{stamp_ns, source, {}};
   scan.points_in_world.reserve(points_in_world.size());
   Eigen::Vector3f origin = Eigen::Vector3f::Zero();
   Eigen::Vector3f axis = Eigen::Vector3f::Zero();
@@ -171,6 +176,7 @@ void DepthMap::look_from(const Pose& world_from_camera, std::int64_t now_ns) {
 void DepthMap::Impl::gather_view(const Pose& world_from_camera) {
   view.angles.clear();
   view.positions.clear();
+  view.sources.clear();
   const double cell = std::tan(config.angular_spacing_deg * kDegree);
   const double margin = std::tan(config.max_neighbour_angle_deg * kDegree);
   const double left = (bounds.least.x() - camera.cx) / camera.fx - margin;
@@ -200,6 +206,7 @@ void DepthMap::Impl::gather_view(const Pose& world_from_camera) {
       cell_taken[index] = 1;
       view.angles.push_back(angles_of(p));
       view.positions.push_back(p);
+      view.sources.push_back(scan->source);
     }
   }
 }
@@ -213,11 +220,12 @@ void DepthMap::Impl::find_neighbours(const Eigen::Vector3f& ray) const {
   const std::size_t found = tree->knnSearch(angle.data(), kNeighbours, indices.data(), squared.data());
   const auto limit = static_cast<float>(config.max_neighbour_angle_deg * kDegree);
   for (std::size_t i = 0; i < found && squared[i] <= limit * limit; ++i) {
-    neighbours.push_back({view.angles[indices[i]] - angle, view.positions[indices[i]]});
+    const std::uint32_t k = indices[i];
+    neighbours.push_back({view.angles[k] - angle, view.positions[k], view.sources[k]});
   }
 }
 
-std::optional<InverseDepth> DepthMap::depth_along(const Eigen::Vector3d& ray) const {
+std::optional<MapDepth> DepthMap::depth_along(const Eigen::Vector3d& ray) const {
   if (!impl_->tree) return std::nullopt;
   impl_->find_neighbours(ray.cast<float>());
   const std::vector<Neighbour>& all = impl_->neighbours;
@@ -242,7 +250,7 @@ std::optional<InverseDepth> DepthMap::depth_along(const Eigen::Vector3d& ray) co
 }
 
 /// z = X_1 . n / (X-bar . n), thesis 3.10.
-std::optional<InverseDepth> DepthMap::Impl::intersect(const Triangle& triangle, const Eigen::Vector3d& ray) const {
+std::optional<MapDepth> DepthMap::Impl::intersect(const Triangle& triangle, const Eigen::Vector3d& ray) const {
   const auto& [a, b, c] = triangle.corners;
   const Eigen::Vector3d p = a.position.cast<double>();
   const Eigen::Vector3d normal =
@@ -255,9 +263,10 @@ std::optional<InverseDepth> DepthMap::Impl::intersect(const Triangle& triangle, 
   if (spread_of(triangle) > spread_limit(depth)) return std::nullopt;
 
   const double tangent = std::sqrt(1.0 - std::min(1.0, cosine * cosine)) / cosine;
-  const double sigma = std::sqrt(std::pow(config.range_sigma_m, 2) + std::pow(depth * kRegistrationAngle * tangent, 2) +
+  const DepthNoise& noise = a.source == DepthSource::kLidar ? config.lidar : kDepthImageNoise;
+  const double sigma = std::sqrt(std::pow(noise.at(depth), 2) + std::pow(depth * kRegistrationAngle * tangent, 2) +
                                  std::pow(kCurvatureShare * static_cast<double>(depth_spread_of(triangle)), 2));
-  return InverseDepth{1.0 / depth, sigma / (depth * depth)};
+  return MapDepth{{1.0 / depth, sigma / (depth * depth)}, a.source};
 }
 
 std::size_t DepthMap::points_in_view() const { return impl_->view.angles.size(); }

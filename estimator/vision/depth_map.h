@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -12,14 +13,31 @@
 
 namespace plumbline {
 
+/// Standard deviation of one point's depth: constant for a time-of-flight sensor, growing with the square of the depth
+/// for one that triangulates.
+struct DepthNoise {
+  double constant_m = 0.015;
+  double per_square_m = 0.0;  ///< [1/m], times depth^2
+  double at(double depth_m) const { return std::hypot(constant_m, per_square_m * depth_m * depth_m); }
+};
+
+/// Where a depth is from, which decides how sure it is (thesis 3.5).
+enum class DepthSource : std::uint8_t { kNone, kLidar, kDepthImage, kStereo, kTriangulated };
+
 struct DepthMapConfig {
   double max_age_s = 3.0;
-  double range_sigma_m = 0.015;      ///< of one lidar point
+  DepthNoise lidar;
   double angular_spacing_deg = 0.4;  ///< of the kept points; finer, and all neighbours of a ray lie on one lidar ring
   double max_neighbour_angle_deg = 2.4;  ///< between ray and neighbour: the 2 degrees between a 16-beam lidar's rings
 };
 
-/// Lidar points of the last seconds as seen from a key-frame, asked for the depth along a ray (thesis 3.3 and 5.2).
+struct MapDepth {
+  InverseDepth depth;
+  DepthSource source = DepthSource::kLidar;
+};
+
+/// Depth points of the last seconds, from lidar or depth images, as seen from a key-frame, asked for the depth along a
+/// ray (thesis 3.3 and 5.2).
 class DepthMap {
  public:
   DepthMap(const CameraIntrinsics& camera, const DepthMapConfig& config);
@@ -29,7 +47,8 @@ class DepthMap {
 
   /// Keeps points for later views. Where the camera looks now is known, points far outside that view are dropped at
   /// once; none that a view within 30 degrees could see.
-  void add(std::int64_t stamp_ns, const std::vector<Eigen::Vector3f>& points_in_world,
+  /// @param source  kLidar or kDepthImage
+  void add(std::int64_t stamp_ns, DepthSource source, const std::vector<Eigen::Vector3f>& points_in_world,
            const std::optional<Pose>& world_from_camera);
 
   /// Makes the view that depth_along() reads: drops points that are too old, behind or outside the image, thins the
@@ -39,7 +58,7 @@ class DepthMap {
   /// Inverse depth where a ray of the view (z = 1) meets the plane of three neighbouring points (3.10).
   /// Nothing where coverage is missing, the points belong to different surfaces, or the plane is seen at grazing angle.
   /// Where a nearer surface surrounds the ray it hides whatever lies behind, so the nearer one counts.
-  std::optional<InverseDepth> depth_along(const Eigen::Vector3d& ray) const;
+  std::optional<MapDepth> depth_along(const Eigen::Vector3d& ray) const;
 
   std::size_t points_in_view() const;
 

@@ -1,28 +1,23 @@
 #include "estimator/vision/feature_tracker.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/video/tracking.hpp>
+
+#include "estimator/vision/image_patch.h"
 
 namespace plumbline {
 namespace {
 
 constexpr int kWindow = 15;      // [px]
 constexpr int kTopLevel = 2;     // three levels: a prediction may err by some 25 px
-constexpr int kPatchRadius = 5;  // [px] of the patch that is compared after tracking
 constexpr int kGainRadius = 4;   // [px] of the boxes whose brightness is compared before tracking
 constexpr float kBorder = 8.0F;  // [px]: half the window
 constexpr double kMaxGain = 4.0;
 /// Least normalised correlation of a patch with its anchor. With image noise of variance n over texture of variance s
 /// a true match scores about s / (s + n); a patch buried in noise scores near 0, whatever the search made of it.
 constexpr double kLeastCorrelation = 0.7;
-
-bool inside(const cv::Mat& image, float x, float y, float border) {
-  return x >= border && y >= border && x < static_cast<float>(image.cols) - border - 1.0F &&
-         y < static_cast<float>(image.rows) - border - 1.0F;
-}
 
 double box_mean(const cv::Mat& image, int x, int y) {
   int sum = 0;
@@ -33,45 +28,7 @@ double box_mean(const cv::Mat& image, int x, int y) {
   return static_cast<double>(sum) / ((2 * kGainRadius + 1) * (2 * kGainRadius + 1));
 }
 
-constexpr int kPatchSide = 2 * kPatchRadius + 1;
-using Patch = std::array<float, static_cast<std::size_t>(kPatchSide) * kPatchSide>;
-
-void read_patch(const cv::Mat& image, const cv::Point2f& centre, Patch& patch) {
-  const int x0 = static_cast<int>(centre.x);
-  const int y0 = static_cast<int>(centre.y);
-  const float a = centre.x - static_cast<float>(x0);
-  const float b = centre.y - static_cast<float>(y0);
-  std::size_t i = 0;
-  for (int v = y0 - kPatchRadius; v <= y0 + kPatchRadius; ++v) {
-    const std::uint8_t* upper = image.ptr<std::uint8_t>(v);
-    const std::uint8_t* lower = image.ptr<std::uint8_t>(v + 1);
-    for (int u = x0 - kPatchRadius; u <= x0 + kPatchRadius; ++u) {
-      patch[i++] = (1.0F - b) * ((1.0F - a) * static_cast<float>(upper[u]) + a * static_cast<float>(upper[u + 1])) +
-                   b * ((1.0F - a) * static_cast<float>(lower[u]) + a * static_cast<float>(lower[u + 1]));
-    }
-  }
-}
-
-/// Zero-mean normalised cross-correlation; blind to brightness and contrast.
-double correlation(const Patch& p, const Patch& q) {
-  double sum_p = 0.0;
-  double sum_q = 0.0;
-  double sum_pp = 0.0;
-  double sum_qq = 0.0;
-  double sum_pq = 0.0;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    const auto x = static_cast<double>(p[i]);
-    const auto y = static_cast<double>(q[i]);
-    sum_p += x;
-    sum_q += y;
-    sum_pp += x * x;
-    sum_qq += y * y;
-    sum_pq += x * y;
-  }
-  const auto n = static_cast<double>(p.size());
-  const double variances = (sum_pp - sum_p * sum_p / n) * (sum_qq - sum_q * sum_q / n);
-  return variances > 0.0 ? (sum_pq - sum_p * sum_q / n) / std::sqrt(variances) : 0.0;
-}
+GreyView view_of(const cv::Mat& image) { return {image.data, image.cols, image.rows, static_cast<int>(image.step)}; }
 
 }  // namespace
 
@@ -87,7 +44,7 @@ struct FeatureTracker::Impl {
   std::vector<double> ratios;
 
   double exposure_ratio();
-  bool looks_like_its_anchor(const cv::Point2f& anchor_pixel, const cv::Point2f& pixel) const;
+  bool looks_like_its_anchor(const Eigen::Vector2f& anchor_pixel, const Eigen::Vector2f& pixel) const;
 };
 
 FeatureTracker::FeatureTracker() : impl_(std::make_unique<Impl>()) {}
@@ -95,14 +52,13 @@ FeatureTracker::FeatureTracker(FeatureTracker&&) noexcept = default;
 FeatureTracker& FeatureTracker::operator=(FeatureTracker&&) noexcept = default;
 FeatureTracker::~FeatureTracker() = default;
 
-void FeatureTracker::set_image(const CameraFrame& frame) {
-  cv::Mat(frame.height, frame.width, CV_8UC1, const_cast<std::uint8_t*>(frame.pixels.data())).copyTo(impl_->newest);
+void FeatureTracker::set_image(const GreyView& image) {
+  const cv::Mat borrowed(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.data),
+                         static_cast<std::size_t>(image.stride));
+  borrowed.copyTo(impl_->newest);
 }
 
-GreyView FeatureTracker::image() const {
-  const cv::Mat& m = impl_->newest;
-  return {m.data, m.cols, m.rows, static_cast<int>(m.step)};
-}
+GreyView FeatureTracker::image() const { return view_of(impl_->newest); }
 
 void FeatureTracker::anchor_here() {
   impl_->newest.copyTo(impl_->anchor);
@@ -115,7 +71,8 @@ double FeatureTracker::Impl::exposure_ratio() {
   ratios.clear();
   constexpr float kReach = kGainRadius + 1.0F;
   for (std::size_t i = 0; i < from.size(); ++i) {
-    if (!inside(anchor, from[i].x, from[i].y, kReach) || !inside(newest, to[i].x, to[i].y, kReach)) continue;
+    if (!inside(view_of(anchor), {from[i].x, from[i].y}, kReach)) continue;
+    if (!inside(view_of(newest), {to[i].x, to[i].y}, kReach)) continue;
     const double now = box_mean(newest, static_cast<int>(to[i].x), static_cast<int>(to[i].y));
     const double then = box_mean(anchor, static_cast<int>(from[i].x), static_cast<int>(from[i].y));
     if (now > 1.0) ratios.push_back(then / now);
@@ -126,15 +83,12 @@ double FeatureTracker::Impl::exposure_ratio() {
   return std::clamp(*middle, 1.0 / kMaxGain, kMaxGain);
 }
 
-bool FeatureTracker::Impl::looks_like_its_anchor(const cv::Point2f& anchor_pixel, const cv::Point2f& pixel) const {
-  if (!inside(newest, pixel.x, pixel.y, kBorder) || !inside(anchor, anchor_pixel.x, anchor_pixel.y, kBorder)) {
-    return false;
-  }
-  Patch then;
-  Patch now;
-  read_patch(anchor, anchor_pixel, then);
-  read_patch(newest, pixel, now);
-  return correlation(then, now) > kLeastCorrelation;
+bool FeatureTracker::Impl::looks_like_its_anchor(const Eigen::Vector2f& anchor_pixel,
+                                                 const Eigen::Vector2f& pixel) const {
+  const GreyView then = view_of(anchor);
+  const GreyView now = view_of(newest);
+  return inside(now, pixel, kBorder) && inside(then, anchor_pixel, kBorder) &&
+         correlation(read_patch(then, anchor_pixel), read_patch(now, pixel)) > kLeastCorrelation;
 }
 
 FeatureTracker::Tracks FeatureTracker::track(const std::vector<Eigen::Vector2f>& anchor_pixels,
@@ -157,7 +111,8 @@ FeatureTracker::Tracks FeatureTracker::track(const std::vector<Eigen::Vector2f>&
   tracks.found.reserve(m.to.size());
   for (std::size_t i = 0; i < m.to.size(); ++i) {
     tracks.pixels.emplace_back(m.to[i].x, m.to[i].y);
-    tracks.found.push_back(m.status[i] != 0 && m.looks_like_its_anchor(m.from[i], m.to[i]) ? 1 : 0);
+    const bool found = m.status[i] != 0 && m.looks_like_its_anchor(anchor_pixels[i], tracks.pixels.back());
+    tracks.found.push_back(found ? 1 : 0);
   }
   return tracks;
 }

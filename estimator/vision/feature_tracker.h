@@ -4,7 +4,6 @@
 #include <memory>
 #include <vector>
 
-#include "estimator/messages.h"
 #include "estimator/vision/corner_detector.h"
 
 namespace plumbline {
@@ -23,8 +22,8 @@ class FeatureTracker {
     std::vector<char> found;  ///< 0 where the patch was lost: out of the image, no convergence, or unlike its anchor
   };
 
-  /// Takes a new image; width * height pixels must be there.
-  void set_image(const CameraFrame& frame);
+  /// Copies a new image.
+  void set_image(const GreyView& image);
   GreyView image() const;
 
   /// Makes the newest image the anchor.

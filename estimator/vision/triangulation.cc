@@ -7,7 +7,6 @@ namespace {
 
 constexpr double kLeastAxisAngle = 2.0 * M_PI / 180.0;  // method section 8: the ray more than 2 degrees off the motion
 constexpr double kLeastBaseline = 0.01;                 // [m]: below, the pose's own error is all there is
-constexpr double kMotionRelativeError = 0.02;           // of the translation's length, which scales all depths alike
 constexpr double kEpipolarGate = 4.0;                   // [sigma]
 constexpr double kContradiction = 4.0;                  // [sigma]
 /// A baseline of 2 % of the depth (method section 8) moves a feature by 9.5 px at f = 474 px, which a track good to
@@ -17,7 +16,7 @@ constexpr double kConvergedRelativeSigma = 0.05;
 }  // namespace
 
 std::optional<InverseDepth> triangulate(const CameraMotion& motion, const CameraIntrinsics& camera,
-                                        const FeatureSighting& feature) {
+                                        const FeatureSighting& feature, double motion_relative_error) {
   const Eigen::Vector3d& t = motion.camera_from_keyframe_translation;
   const Eigen::Vector3d y = motion.camera_from_keyframe_rotation * feature.keyframe_ray;
   const Eigen::Vector3d x = ray_through(camera, feature.pixel);
@@ -35,7 +34,7 @@ std::optional<InverseDepth> triangulate(const CameraMotion& motion, const Camera
   if (depth_ratio <= 0.0) return std::nullopt;
   const double off_line_px = (offset - depth.mean * slope).norm() / depth_ratio;
   if (off_line_px > kEpipolarGate * feature.pixel_sigma) return std::nullopt;
-  depth.sigma = std::hypot(feature.pixel_sigma * depth_ratio / slope.norm(), kMotionRelativeError * depth.mean);
+  depth.sigma = std::hypot(feature.pixel_sigma * depth_ratio / slope.norm(), motion_relative_error * depth.mean);
   return depth;
 }
 

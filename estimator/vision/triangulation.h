@@ -14,9 +14,10 @@ namespace plumbline {
 
 /// The inverse depth in the key-frame that one later sighting implies, with the standard deviation that the pixel noise
 /// and the motion's own error give it.
+/// @param motion_relative_error  of the translation's length, which scales all depths alike
 /// @returns nothing when the ray lies within 2 degrees of the motion's axis or the sighting is off its epipolar line.
 std::optional<InverseDepth> triangulate(const CameraMotion& motion, const CameraIntrinsics& camera,
-                                        const FeatureSighting& feature);
+                                        const FeatureSighting& feature, double motion_relative_error = 0.02);
 
 /// The product of two Gaussians; where they contradict each other the newer one alone.
 InverseDepth fuse(const InverseDepth& older, const InverseDepth& newer);

@@ -5,11 +5,7 @@
 #include <optional>
 
 #include "estimator/geometry/interpolation.h"
-#include "estimator/vision/corner_detector.h"
-#include "estimator/vision/depth_map.h"
-#include "estimator/vision/feature_tracker.h"
-#include "estimator/vision/lens_pixels.h"
-#include "estimator/vision/motion_constraints.h"
+#include "estimator/vision/feature_set.h"
 #include "estimator/vision/triangulation.h"
 
 namespace plumbline {
@@ -17,26 +13,6 @@ namespace {
 
 /// An epipolar line exists only where the feature moved by more than its own noise.
 constexpr double kLeastParallaxInSigma = 5.0;
-/// What is unknown about a depthless feature's inverse depth while it has not moved: anything beyond some 3 m.
-constexpr InverseDepth kFarAway{0.0, 0.3};
-constexpr int kOutlierFramesToDrop = 3;
-/// Patches are compared with their anchor as they were, so a new anchor is due before scale or roll deform them much.
-constexpr double kAnchorMaxScaleChange = 0.08;
-constexpr double kAnchorMaxRoll = 0.1;  // [rad]
-
-struct Feature {
-  FeatureSighting sighting;                         ///< in pixels of the ideal pinhole
-  Eigen::Vector2f pixel = Eigen::Vector2f::Zero();  ///< now, in the image as it came; so are the next two
-  Eigen::Vector2f keyframe_pixel = Eigen::Vector2f::Zero();
-  Eigen::Vector2f anchor_pixel = Eigen::Vector2f::Zero();
-  double anchor_scale = 1.0;  ///< z^c / z^l when the anchor was taken
-  InverseDepth triangulated;  ///< in the key-frame, from its whole track
-  TrackedFeature::Depth depth_source = TrackedFeature::Depth::kNone;
-  bool epipolar = false;                                    ///< which row kind this image gives
-  Eigen::Matrix2d whitening = Eigen::Matrix2d::Identity();  ///< of its reprojection rows, else unused
-  bool inlier = true;
-  int outlier_frames = 0;  ///< in a row
-};
 
 SolveResult unsolved(const Pose& guess) {
   SolveResult result;
@@ -44,57 +20,39 @@ SolveResult unsolved(const Pose& guess) {
   return result;
 }
 
-double scale_of(const CameraMotion& motion, const Feature& feature) {
-  return (motion.camera_from_keyframe_rotation * feature.sighting.keyframe_ray +
-          feature.sighting.depth.mean * motion.camera_from_keyframe_translation)
-      .z();
-}
-
-double roll_of(const CameraMotion& motion) {
-  return std::atan2(motion.camera_from_keyframe_rotation(1, 0), motion.camera_from_keyframe_rotation(0, 0));
+FeatureSetConfig feature_config(const VisionConfig& config) {
+  FeatureSetConfig features;
+  features.corners.grid_rows = config.grid_rows;
+  features.corners.grid_cols = config.grid_cols;
+  features.corners.features_per_cell = config.features_per_cell;
+  features.pixel_sigma_px = config.pixel_sigma_px;
+  features.depth_max_age_s = config.depth_max_age_s;
+  return features;
 }
 
 }  // namespace
 
 struct VisualOdometry::Impl {
   Impl(const Calibration& calibration, const VisionConfig& settings, bool with_remapping)
-      : camera(calibration.camera),
-        body_from_camera(calibration.body_from_camera),
-        noise(calibration.camera_noise),
-        config(settings),
-        remapping(with_remapping),
-        depth_map(calibration.camera, depth_config(calibration, settings)) {}
+      : config(settings), remapping(with_remapping), set(calibration, feature_config(settings)) {}
 
-  static DepthMapConfig depth_config(const Calibration& calibration, const VisionConfig& settings) {
-    DepthMapConfig depth;
-    depth.max_age_s = settings.depth_max_age_s;
-    depth.range_sigma_m = calibration.lidar_range_sigma_m;
-    return depth;
-  }
-
-  bool take_image(const CameraFrame& frame);
-  void track(const Pose& predicted_keyframe_from_body);
-  std::vector<Eigen::Vector2f> predict(const Pose& predicted_keyframe_from_body) const;
+  template <typename Frame>
+  SolveResult process(const Frame& frame, const PosePrior& prior);
+  template <typename Frame>
+  bool follow(const Frame& frame, const PosePrior& prior);
+  void settle(const Pose& keyframe_from_body, const std::vector<double>& weights);
+  template <typename Frame>
+  void add_stereo(const Frame& right);
   void choose_rows(const PosePrior& prior);
-  SolveResult solve_motion(const PosePrior& prior);
-  void judge(const SolveResult& result);
-  void renew_anchor();
+  SolveResult solve_motion(const PosePrior& prior) const;
 
-  double overlap() const;
   bool worn_out() const;
   void carry_tracks_into_new_keyframe(const Pose& world_from_body);
-  void refill();
-  void give_depth(const Pose& world_from_body);
 
-  CameraIntrinsics camera;
-  Pose body_from_camera;
-  CameraNoise noise;
   VisionConfig config;
   bool remapping = true;
 
-  FeatureTracker tracker;
-  DepthMap depth_map;
-  std::vector<Feature> features;
+  FeatureSet set;  ///< its reference is the key-frame
   bool has_image = false;
   std::int64_t newest_ns = 0;
 
@@ -103,7 +61,6 @@ struct VisualOdometry::Impl {
   std::size_t keyframe_features = 0;
   Pose keyframe_from_newest;  ///< the body's motion, as last solved
   bool solved = false;
-  double anchor_roll = 0.0;
 };
 
 VisualOdometry::VisualOdometry(const Calibration& calibration, const VisionConfig& config, bool remapping)
@@ -112,24 +69,71 @@ VisualOdometry::VisualOdometry(VisualOdometry&&) noexcept = default;
 VisualOdometry& VisualOdometry::operator=(VisualOdometry&&) noexcept = default;
 VisualOdometry::~VisualOdometry() = default;
 
-void VisualOdometry::add_depth_points(std::int64_t stamp_ns, const std::vector<Eigen::Vector3f>& points_in_world) {
-  std::optional<Pose> world_from_camera;
-  if (impl_->world_from_keyframe) {
-    world_from_camera = *impl_->world_from_keyframe * impl_->keyframe_from_newest * impl_->body_from_camera;
-  }
-  impl_->depth_map.add(stamp_ns, points_in_world, world_from_camera);
+void VisualOdometry::add_depth_points(std::int64_t stamp_ns, const std::vector<Eigen::Vector3f>& points_in_body,
+                                      const Pose& world_from_body) {
+  impl_->set.add_depth_points(stamp_ns, DepthSource::kLidar, points_in_body, world_from_body);
+}
+
+void VisualOdometry::add_depth_image(const DepthFrame& frame, const Pose& world_from_body) {
+  impl_->set.add_depth_image(frame, world_from_body);
 }
 
 SolveResult VisualOdometry::process(const CameraFrame& frame, const PosePrior& keyframe_from_body) {
-  Impl& m = *impl_;
-  m.solved = false;
-  if (!m.take_image(frame) || !m.world_from_keyframe) return unsolved(keyframe_from_body.mean);
-  m.track(keyframe_from_body.mean);
-  m.choose_rows(keyframe_from_body);
-  const SolveResult result = m.solve_motion(keyframe_from_body);
-  m.judge(result);
-  m.renew_anchor();
+  return impl_->process(frame, keyframe_from_body);
+}
+
+SolveResult VisualOdometry::process(const PointFrame& frame, const PosePrior& keyframe_from_body) {
+  return impl_->process(frame, keyframe_from_body);
+}
+
+template <typename Frame>
+SolveResult VisualOdometry::Impl::process(const Frame& frame, const PosePrior& prior) {
+  if (!follow(frame, prior)) return unsolved(prior.mean);
+  const SolveResult result = solve_motion(prior);
+  keyframe_from_newest = result.pose;
+  if (result.spectrum.well_conditioned > 0) settle(result.pose, result.weights);
   return result;
+}
+
+bool VisualOdometry::follow(const CameraFrame& frame, const PosePrior& prior) { return impl_->follow(frame, prior); }
+bool VisualOdometry::follow(const PointFrame& frame, const PosePrior& prior) { return impl_->follow(frame, prior); }
+
+template <typename Frame>
+bool VisualOdometry::Impl::follow(const Frame& frame, const PosePrior& prior) {
+  solved = false;
+  has_image = set.take(frame);
+  if (!has_image) return false;
+  newest_ns = frame.stamp_ns;
+  if (!world_from_keyframe) return false;
+  set.track(prior.mean, keyframe_from_newest);
+  choose_rows(prior);
+  keyframe_from_newest = prior.mean;
+  return true;
+}
+
+void VisualOdometry::linearize(const Pose& keyframe_from_body, ResidualRows& rows) const {
+  impl_->set.linearize(keyframe_from_body, rows);
+}
+
+void VisualOdometry::settle(const Pose& keyframe_from_body, const std::vector<double>& weights) {
+  impl_->settle(keyframe_from_body, weights);
+}
+
+void VisualOdometry::Impl::settle(const Pose& keyframe_from_body, const std::vector<double>& weights) {
+  solved = true;
+  keyframe_from_newest = keyframe_from_body;
+  set.judge(weights);
+  set.renew_anchor(keyframe_from_newest);
+}
+
+void VisualOdometry::add_stereo(const CameraFrame& right) { impl_->add_stereo(right); }
+void VisualOdometry::add_stereo(const PointFrame& right) { impl_->add_stereo(right); }
+
+/// A pair is two frames of one moment, and only a key-frame asks for depth.
+template <typename Frame>
+void VisualOdometry::Impl::add_stereo(const Frame& right) {
+  const bool shows_keyframe = world_from_keyframe && right.stamp_ns == keyframe_ns && newest_ns == keyframe_ns;
+  if (shows_keyframe) set.give_stereo_depth(right);
 }
 
 bool VisualOdometry::wants_keyframe() const {
@@ -145,200 +149,59 @@ bool VisualOdometry::wants_keyframe() const {
 void VisualOdometry::start_keyframe(const Pose& world_from_body) {
   Impl& m = *impl_;
   if (!m.has_image) return;
-  m.carry_tracks_into_new_keyframe(world_from_body);
-  m.refill();
-  m.give_depth(world_from_body);
-  m.tracker.anchor_here();
+  if (m.world_from_keyframe) m.carry_tracks_into_new_keyframe(world_from_body);
+  m.set.refill();
+  m.set.give_depth(world_from_body, m.newest_ns);
+  m.set.anchor_here(Pose{});
   m.world_from_keyframe = world_from_body;
   m.keyframe_ns = m.newest_ns;
-  m.keyframe_features = m.features.size();
+  m.keyframe_features = m.set.features.size();
   m.keyframe_from_newest = Pose{};
-  m.anchor_roll = 0.0;
 }
 
-std::vector<TrackedFeature> VisualOdometry::features() const {
-  std::vector<TrackedFeature> tracked;
-  tracked.reserve(impl_->features.size());
-  for (const Feature& f : impl_->features) {
-    tracked.push_back({f.pixel, f.keyframe_pixel, f.depth_source, f.inlier});
-  }
-  return tracked;
-}
-
-bool VisualOdometry::Impl::take_image(const CameraFrame& frame) {
-  has_image = frame.width == camera.width && frame.height == camera.height && frame.width > 0 && frame.height > 0 &&
-              frame.pixels.size() == static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
-  if (!has_image) return false;
-  tracker.set_image(frame);
-  newest_ns = frame.stamp_ns;
-  return true;
-}
-
-/// Where the features should be: by depth and motion where the depth is known, else where the rotation since the last
-/// image moves them.
-std::vector<Eigen::Vector2f> VisualOdometry::Impl::predict(const Pose& predicted_keyframe_from_body) const {
-  const CameraMotion from_keyframe = camera_motion(predicted_keyframe_from_body, body_from_camera);
-  const CameraMotion from_last =
-      camera_motion(keyframe_from_newest.inverse() * predicted_keyframe_from_body, body_from_camera);
-  std::vector<Eigen::Vector2f> predicted;
-  predicted.reserve(features.size());
-  for (const Feature& f : features) {
-    Eigen::Vector3d point = from_last.camera_from_keyframe_rotation * ray_through(camera, f.sighting.pixel);
-    if (f.sighting.depth.known()) {
-      point = from_keyframe.camera_from_keyframe_rotation * f.sighting.keyframe_ray +
-              f.sighting.depth.mean * from_keyframe.camera_from_keyframe_translation;
-    }
-    const bool in_front = point.z() > 0.05;
-    predicted.push_back(in_front ? image_pixel(camera, project(camera, point)) : f.pixel);
-  }
-  return predicted;
-}
-
-/// Moves the features to where the newest image shows them and forgets those that it does not show.
-void VisualOdometry::Impl::track(const Pose& predicted_keyframe_from_body) {
-  std::vector<Eigen::Vector2f> anchors;
-  anchors.reserve(features.size());
-  for (const Feature& f : features) anchors.push_back(f.anchor_pixel);
-  const FeatureTracker::Tracks tracks = tracker.track(anchors, predict(predicted_keyframe_from_body));
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < tracks.pixels.size(); ++i) {
-    if (tracks.found[i] == 0) continue;
-    features[kept] = features[i];
-    features[kept].pixel = tracks.pixels[i];
-    features[kept++].sighting.pixel = pinhole_pixel(camera, tracks.pixels[i]);
-  }
-  features.resize(kept);
-}
+std::vector<TrackedFeature> VisualOdometry::features() const { return impl_->set.shown(); }
 
 /// A depthless feature gives an epipolar row once its parallax exceeds what its noise and the prior's rotation could
 /// feign; before that it is a direction, as of a point far away, and says nothing about translation. The noise of the
 /// other rows depends on the motion as well. Both are decided once, at the prior, for all iterations: deciding anew at
 /// every iterate tripled the iterations.
 void VisualOdometry::Impl::choose_rows(const PosePrior& prior) {
-  const CameraMotion motion = camera_motion(prior.mean, body_from_camera);
+  const CameraMotion motion = set.motion(prior.mean);
+  const CameraIntrinsics& camera = set.camera();
   const double rotation_px = camera.fx * std::sqrt(prior.covariance.topLeftCorner<3, 3>().trace());
-  for (Feature& f : features) {
+  for (Feature& f : set.features) {
     const double least = kLeastParallaxInSigma * std::hypot(f.sighting.pixel_sigma, rotation_px);
-    f.epipolar = f.depth_source == TrackedFeature::Depth::kNone && parallax_px(motion, camera, f.sighting) > least;
+    f.epipolar = f.depth_source == DepthSource::kNone && parallax_px(motion, camera, f.sighting) > least;
     if (!f.epipolar) f.whitening = reprojection_whitening(motion, camera, f.sighting);
   }
 }
 
-SolveResult VisualOdometry::Impl::solve_motion(const PosePrior& prior) {
+SolveResult VisualOdometry::Impl::solve_motion(const PosePrior& prior) const {
   SolverOptions options;
   options.degeneracy_threshold = config.degeneracy_threshold;
   options.remapping = remapping;
   options.min_features = config.min_features;
   options.min_inlier_share = config.min_inlier_share;
-  const auto linearize = [this](const Pose& pose, ResidualRows& rows) {
-    const CameraMotion motion = camera_motion(pose, body_from_camera);
-    for (const Feature& f : features) {
-      if (f.epipolar) {
-        const PixelRow row = epipolar_row(motion, camera, f.sighting);
-        rows.add(row.residual, row.jacobian);
-      } else {
-        const PixelRows pair = reprojection_rows(motion, camera, f.sighting, f.whitening);
-        rows.add(pair.residual[0], pair.jacobian.row(0), pair.residual[1], pair.jacobian.row(1));
-      }
-    }
-  };
-  return solve(prior.mean, prior, linearize, options);
-}
-
-/// Notes inliers and drops features that stay outliers: things that move, wrong depths, tracks gone astray.
-void VisualOdometry::Impl::judge(const SolveResult& result) {
-  keyframe_from_newest = result.pose;
-  solved = result.spectrum.well_conditioned > 0;
-  if (!solved) return;
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    Feature& f = features[i];
-    f.inlier = result.weights[i] > 0.0;
-    f.outlier_frames = f.inlier ? 0 : f.outlier_frames + 1;
-  }
-  std::erase_if(features, [](const Feature& f) { return f.outlier_frames >= kOutlierFramesToDrop; });
-}
-
-void VisualOdometry::Impl::renew_anchor() {
-  if (!solved || features.empty()) return;
-  const CameraMotion motion = camera_motion(keyframe_from_newest, body_from_camera);
-  double change = 0.0;
-  for (const Feature& f : features) change += std::abs(scale_of(motion, f) / f.anchor_scale - 1.0);
-  change /= static_cast<double>(features.size());
-  const double roll = roll_of(motion);
-  if (change < kAnchorMaxScaleChange && std::abs(roll - anchor_roll) < kAnchorMaxRoll) return;
-  tracker.anchor_here();
-  anchor_roll = roll;
-  for (Feature& f : features) {
-    f.anchor_pixel = f.pixel;
-    f.anchor_scale = scale_of(motion, f);
-  }
-}
-
-/// The share of the key-frame's view that the newest image still shows, from the features' mean shift.
-double VisualOdometry::Impl::overlap() const {
-  if (features.empty()) return 0.0;
-  Eigen::Vector2d shift = Eigen::Vector2d::Zero();
-  for (const Feature& f : features) shift += (f.pixel - f.keyframe_pixel).cast<double>();
-  shift /= static_cast<double>(features.size());
-  return (1.0 - std::abs(shift.x()) / camera.width) * (1.0 - std::abs(shift.y()) / camera.height);
+  return solve(
+      prior.mean, prior, [this](const Pose& pose, ResidualRows& rows) { set.linearize(pose, rows); }, options);
 }
 
 bool VisualOdometry::Impl::worn_out() const {
-  const double tracked_share = static_cast<double>(features.size()) / static_cast<double>(keyframe_features);
-  return tracked_share < config.keyframe_tracked_share || overlap() < config.keyframe_overlap;
+  const double tracked_share = static_cast<double>(set.features.size()) / static_cast<double>(keyframe_features);
+  return tracked_share < config.keyframe_tracked_share || set.overlap() < config.keyframe_overlap;
 }
 
 /// Expresses the surviving tracks, and what the motion has taught about their depth, in the newest image.
 void VisualOdometry::Impl::carry_tracks_into_new_keyframe(const Pose& world_from_body) {
-  if (!world_from_keyframe) return;
-  const CameraMotion motion = camera_motion(world_from_keyframe->inverse() * world_from_body, body_from_camera);
-  std::erase_if(features, [](const Feature& f) { return !f.inlier; });
-  for (Feature& f : features) {
-    if (const auto seen = triangulate(motion, camera, f.sighting); solved && seen) {
+  const Pose keyframe_from_body = world_from_keyframe->inverse() * world_from_body;
+  const CameraMotion motion = set.motion(keyframe_from_body);
+  std::erase_if(set.features, [](const Feature& f) { return !f.inlier; });
+  for (Feature& f : set.features) {
+    if (const auto seen = triangulate(motion, set.camera(), f.sighting); solved && seen) {
       f.triangulated = fuse(f.triangulated, *seen);
     }
-    f.triangulated = carried_along(f.triangulated, motion, f.sighting.keyframe_ray);
-    f.sighting.keyframe_ray = ray_through(camera, f.sighting.pixel);
-    f.keyframe_pixel = f.anchor_pixel = f.pixel;
-    f.anchor_scale = 1.0;
   }
-}
-
-void VisualOdometry::Impl::refill() {
-  std::vector<Eigen::Vector2f> occupied;
-  occupied.reserve(features.size());
-  for (const Feature& f : features) occupied.push_back(f.keyframe_pixel);
-  CornerOptions options;
-  options.grid_rows = config.grid_rows;
-  options.grid_cols = config.grid_cols;
-  options.features_per_cell = config.features_per_cell;
-  const GreyView image = tracker.image();
-  for (const Corner& corner : find_corners(image, image_noise_dn(image, noise), occupied, options)) {
-    Feature f;
-    f.pixel = f.keyframe_pixel = f.anchor_pixel = corner.pixel;
-    f.sighting.pixel = pinhole_pixel(camera, corner.pixel);
-    f.sighting.keyframe_ray = ray_through(camera, f.sighting.pixel);
-    f.sighting.pixel_sigma = std::hypot(config.pixel_sigma_px, corner.noise_sigma_px);
-    features.push_back(f);
-  }
-}
-
-/// The lidar's depth first, then the triangulated, then none (thesis 5.2).
-void VisualOdometry::Impl::give_depth(const Pose& world_from_body) {
-  depth_map.look_from(world_from_body * body_from_camera, newest_ns);
-  for (Feature& f : features) {
-    f.epipolar = false;
-    f.depth_source = TrackedFeature::Depth::kNone;
-    f.sighting.depth = kFarAway;
-    if (const auto depth = depth_map.depth_along(f.sighting.keyframe_ray)) {
-      f.depth_source = TrackedFeature::Depth::kLidar;
-      f.sighting.depth = *depth;
-      f.triangulated = *depth;
-    } else if (converged(f.triangulated)) {
-      f.depth_source = TrackedFeature::Depth::kTriangulated;
-      f.sighting.depth = f.triangulated;
-    }
-  }
+  set.make_newest_the_reference(keyframe_from_body);
 }
 
 }  // namespace plumbline

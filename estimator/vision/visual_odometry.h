@@ -7,6 +7,8 @@
 #include "estimator/estimator.h"
 #include "estimator/messages.h"
 #include "estimator/solver/robust_solver.h"
+#include "estimator/vision/depth_map.h"
+#include "estimator/vision/point_frame.h"
 
 namespace plumbline {
 
@@ -40,8 +42,16 @@ class VisualOdometry {
   VisualOdometry& operator=(VisualOdometry&&) noexcept;
   ~VisualOdometry();
 
-  /// De-skewed lidar points for the depth map, registered with the estimate.
-  void add_depth_points(std::int64_t stamp_ns, const std::vector<Eigen::Vector3f>& points_in_world);
+  /// De-skewed lidar points, for the depth map. @param world_from_body  the estimate at their time
+  void add_depth_points(std::int64_t stamp_ns, const std::vector<Eigen::Vector3f>& points_in_body,
+                        const Pose& world_from_body);
+  /// A depth image of any camera that the calibration knows.
+  void add_depth_image(const DepthFrame& frame, const Pose& world_from_body);
+
+  /// The frame of a further grey camera, used if it shows the moment of a key-frame just started: gives depth to the
+  /// features that the depth map does not cover.
+  void add_stereo(const CameraFrame& right);
+  void add_stereo(const PointFrame& right);
 
   /// Tracks the features into a new image and solves for keyframe_from_body, the body's pose now in the body frame of
   /// the key-frame (right perturbations, in B now).
@@ -49,6 +59,17 @@ class VisualOdometry {
   /// Without a key-frame, with too few usable features, or with an image whose size is not the calibration's, the
   /// result has no well-conditioned direction and the pose is the prior's mean. Never throws on bad data.
   SolveResult process(const CameraFrame& frame, const PosePrior& keyframe_from_body);
+  /// The same with given points in place of an image.
+  SolveResult process(const PointFrame& frame, const PosePrior& keyframe_from_body);
+
+  /// Tracks the features into a new image and leaves the solving to a problem of several sensors, which takes
+  /// linearize() as its rows and ends with settle(). False if the image has nothing to say.
+  bool follow(const CameraFrame& frame, const PosePrior& keyframe_from_body);
+  bool follow(const PointFrame& frame, const PosePrior& keyframe_from_body);
+  /// The newest image's rows at a candidate keyframe_from_body.
+  void linearize(const Pose& keyframe_from_body, ResidualRows& rows) const;
+  /// @param weights  of the rows' features, in their order
+  void settle(const Pose& keyframe_from_body, const std::vector<double>& weights);
 
   /// True when the newest image should become the key-frame: none yet, too many features lost, or little overlap.
   bool wants_keyframe() const;

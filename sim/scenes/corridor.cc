@@ -97,12 +97,13 @@ void add_floor_and_ceiling(MjcfWriter& writer, const Leg& leg, RandomStream& str
   }
 }
 
-void add_lamps(MjcfWriter& writer, const Leg& leg, RandomStream& stream) {
+void add_lamps(MjcfWriter& writer, const Leg& leg, const Unlit& unlit, RandomStream& stream) {
   constexpr double kSpacing = 6.0;
   const int count = std::max(1, static_cast<int>(leg.length / kSpacing));
   for (int i = 0; i < count; ++i) {
     const double along = leg.length * (i + 0.5) / count + stream.uniform(-0.5, 0.5);
     const double y = stream.uniform(-0.2, 0.2);
+    if (along > unlit.from_m && along < unlit.to_m) continue;
     writer.box("lamp_housing", {along - 0.5, y - 0.1, leg.height - 0.06}, {along + 0.5, y + 0.1, leg.height},
                leg.world_from_leg);
     writer.lamp(
@@ -116,22 +117,12 @@ void add_cable_tray(MjcfWriter& writer, const Leg& leg) {
                   {leg.wall_end(Leg::kLeft), y, leg.height - 0.12}, 0.05, leg.world_from_leg);
 }
 
-void add_leg(MjcfWriter& writer, const Leg& leg, double door_spacing, std::uint64_t seed) {
-  add_side(writer, leg, Leg::kLeft, door_spacing, seed);
-  add_side(writer, leg, Leg::kRight, door_spacing, seed);
-  RandomStream grounds(seed, leg.name + "/grounds");
-  add_floor_and_ceiling(writer, leg, grounds);
-  RandomStream lamps(seed, leg.name + "/lamps");
-  add_lamps(writer, leg, lamps);
-  add_cable_tray(writer, leg);
-}
-
 SceneDescription build_corridor(const SceneValues& values, std::uint64_t world_seed) {
   MjcfWriter writer;
   const auto turns = static_cast<std::size_t>(std::lround(values.at("turns")));
   const std::vector<double> lengths(turns + 1, values.at("length_m") / static_cast<double>(turns + 1));
   const std::vector<Leg> legs = make_legs("corridor", lengths, values.at("width_m"), values.at("height_m"));
-  for (const Leg& leg : legs) add_leg(writer, leg, values.at("door_spacing_m"), world_seed);
+  for (const Leg& leg : legs) add_corridor_leg(writer, leg, values.at("door_spacing_m"), world_seed);
   RandomStream ends(world_seed, "corridor/ends");
   add_wall(writer, first_wall(legs.front()), wall_materials(), ends);
   add_wall(writer, last_wall(legs.back()), wall_materials(), ends);
@@ -141,6 +132,17 @@ SceneDescription build_corridor(const SceneValues& values, std::uint64_t world_s
 }
 
 }  // namespace
+
+void add_corridor_leg(MjcfWriter& writer, const Leg& leg, double door_spacing_m, std::uint64_t seed,
+                      const Unlit& unlit) {
+  add_side(writer, leg, Leg::kLeft, door_spacing_m, seed);
+  add_side(writer, leg, Leg::kRight, door_spacing_m, seed);
+  RandomStream grounds(seed, leg.name + "/grounds");
+  add_floor_and_ceiling(writer, leg, grounds);
+  RandomStream lamps(seed, leg.name + "/lamps");
+  add_lamps(writer, leg, unlit, lamps);
+  add_cable_tray(writer, leg);
+}
 
 SceneInfo corridor_scene() {
   return {.name = "corridor",

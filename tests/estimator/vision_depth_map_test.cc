@@ -32,7 +32,7 @@ std::vector<Vector3f> rings_on_plane(const Vector3d& point, const Vector3d& norm
 
 DepthMap map_of(const std::vector<Vector3f>& points) {
   DepthMap map(kCamera, DepthMapConfig{});
-  map.add(0, points, std::nullopt);
+  map.add(0, DepthSource::kLidar, points, std::nullopt);
   map.look_from(Pose{}, 0);
   return map;
 }
@@ -48,9 +48,10 @@ TEST(DepthMap, FindsAPlanesDepthBetweenTheRings) {
       const auto depth = map.depth_along(ray);
       if (!depth) continue;
       ++found;
-      EXPECT_NEAR(1.0 / depth->mean, normal.dot(point) / normal.dot(ray), 1e-3);  // float points at 5 m: 1e-6 each
-      EXPECT_GT(depth->sigma, 0.0);
-      EXPECT_LT(depth->sigma / depth->mean, 0.02);
+      EXPECT_NEAR(1.0 / depth->depth.mean, normal.dot(point) / normal.dot(ray),
+                  1e-3);  // float points at 5 m: 1e-6 each
+      EXPECT_GT(depth->depth.sigma, 0.0);
+      EXPECT_LT(depth->depth.sigma / depth->depth.mean, 0.02);
     }
   }
   EXPECT_GT(found, 0.95 * 24 * 12);
@@ -59,11 +60,11 @@ TEST(DepthMap, FindsAPlanesDepthBetweenTheRings) {
 TEST(DepthMap, ReadsTheViewFromWhereTheCameraIs) {
   const std::vector<Vector3f> points = rings_on_plane({0, 0, 5}, {0, 0, -1}, -38, 38);
   DepthMap map(kCamera, DepthMapConfig{});
-  map.add(0, points, std::nullopt);
+  map.add(0, DepthSource::kLidar, points, std::nullopt);
   map.look_from({Eigen::Quaterniond::Identity(), Vector3d(0.1, 0.0, 0.5)}, 0);
   const auto depth = map.depth_along({0.05, 0.02, 1});
   ASSERT_TRUE(depth.has_value());
-  EXPECT_NEAR(1.0 / depth->mean, 4.5, 1e-3);
+  EXPECT_NEAR(1.0 / depth->depth.mean, 4.5, 1e-3);
 }
 
 TEST(DepthMap, RefusesRaysBetweenForegroundAndBackground) {
@@ -75,8 +76,8 @@ TEST(DepthMap, RefusesRaysBetweenForegroundAndBackground) {
   const auto left = map.depth_along({-0.2, 0.01, 1});
   const auto right = map.depth_along({0.2, 0.01, 1});
   ASSERT_TRUE(left && right);
-  EXPECT_NEAR(1.0 / left->mean, 3.0, 1e-3);
-  EXPECT_NEAR(1.0 / right->mean, 8.0, 1e-3);
+  EXPECT_NEAR(1.0 / left->depth.mean, 3.0, 1e-3);
+  EXPECT_NEAR(1.0 / right->depth.mean, 8.0, 1e-3);
 }
 
 TEST(DepthMap, PrefersTheSurfaceInFrontWhereBothSurroundTheRay) {
@@ -88,7 +89,7 @@ TEST(DepthMap, PrefersTheSurfaceInFrontWhereBothSurroundTheRay) {
   const DepthMap map = map_of(points);
   const auto depth = map.depth_along({0.01, 0.005, 1});
   ASSERT_TRUE(depth.has_value());
-  EXPECT_NEAR(1.0 / depth->mean, 3.0, 1e-3);
+  EXPECT_NEAR(1.0 / depth->depth.mean, 3.0, 1e-3);
 }
 
 TEST(DepthMap, RefusesGrazingPlanesAndPlacesWithoutPoints) {
@@ -109,11 +110,11 @@ TEST(DepthMap, IgnoresPointsBehindOldPointsAndNonsense) {
   for (Vector3f& p : behind) p = -p;
   behind.emplace_back(0.0F, 0.0F, std::numeric_limits<float>::quiet_NaN());
   behind.emplace_back(0.0F, 0.0F, 0.0F);
-  map.add(0, behind, std::nullopt);
+  map.add(0, DepthSource::kLidar, behind, std::nullopt);
   map.look_from(Pose{}, 0);
   EXPECT_EQ(map.points_in_view(), 0U);
 
-  map.add(0, rings_on_plane({0, 0, 5}, {0, 0, -1}, -38, 38), std::nullopt);
+  map.add(0, DepthSource::kLidar, rings_on_plane({0, 0, 5}, {0, 0, -1}, -38, 38), std::nullopt);
   map.look_from(Pose{}, 10'000'000'000);
   EXPECT_EQ(map.points_in_view(), 0U);
 }
@@ -121,11 +122,11 @@ TEST(DepthMap, IgnoresPointsBehindOldPointsAndNonsense) {
 TEST(DepthMap, CroppingAtInsertionCostsNothingInsideTheView) {
   const std::vector<Vector3f> points = rings_on_plane({0, 0, 5}, {0, 0, -1}, -60, 60);
   DepthMap cropped(kCamera, DepthMapConfig{});
-  cropped.add(0, points, Pose{});
+  cropped.add(0, DepthSource::kLidar, points, Pose{});
   const Pose turned{exp_so3({0.0, 0.3, 0.0}), Vector3d(0.1, 0, 0)};
   cropped.look_from(turned, 0);
   DepthMap whole(kCamera, DepthMapConfig{});
-  whole.add(0, points, std::nullopt);
+  whole.add(0, DepthSource::kLidar, points, std::nullopt);
   whole.look_from(turned, 0);
   EXPECT_EQ(cropped.points_in_view(), whole.points_in_view());
 }

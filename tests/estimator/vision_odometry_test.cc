@@ -74,7 +74,9 @@ class Drive {
     const auto stamp_ns = static_cast<std::int64_t>(frame) * 20'000'000;
     const Pose truth = world_from_body(time_s);
     if (with_lidar && frame % 5 == 0) {
-      odometry.add_depth_points(stamp_ns, testing::lidar_points(planes, truth, 0.015, noise));
+      auto points = testing::lidar_points(planes, truth, 0.015, noise);
+      for (Eigen::Vector3f& p : points) p = (truth.inverse() * p.cast<double>()).cast<float>();
+      odometry.add_depth_points(stamp_ns, points, truth);
     }
     const Pose increment = frame == 0 ? Pose{} : world_from_body(time_s - kFrameS).inverse() * truth;
     Vector6d wrong = Vector6d::Zero();

@@ -13,8 +13,6 @@ namespace {
 using Eigen::Vector2f;
 using testing::expose;
 
-GreyView view_of(const CameraFrame& frame) { return {frame.pixels.data(), frame.width, frame.height, frame.width}; }
-
 CameraFrame noise_frame(double level_dn, double noise_dn, RandomStream& random) {
   return expose(cv::Mat(360, 640, CV_8UC1, cv::Scalar(level_dn)), 0, 1.0, noise_dn, random);
 }
@@ -41,9 +39,9 @@ TrackErrors track_shift(double dx, double dy, double gain, double noise_dn) {
   std::vector<Vector2f> pixels;
   for (const Corner& c : find_corners(image, image_noise_dn(image, {}), {}, {})) pixels.push_back(c.pixel);
   FeatureTracker tracker;
-  tracker.set_image(first);
+  tracker.set_image(view_of(first));
   tracker.anchor_here();
-  tracker.set_image(second);
+  tracker.set_image(view_of(second));
   const auto tracks = tracker.track(pixels, pixels);
   std::vector<double> errors;
   for (std::size_t i = 0; i < pixels.size(); ++i) {
@@ -128,9 +126,9 @@ TEST(FeatureTracker, LosesEverythingWhenTheLightGoesOut) {
   std::vector<Vector2f> pixels;
   for (const Corner& c : find_corners(image, image_noise_dn(image, {}), {}, {})) pixels.push_back(c.pixel);
   FeatureTracker tracker;
-  tracker.set_image(lit);
+  tracker.set_image(view_of(lit));
   tracker.anchor_here();
-  tracker.set_image(noise_frame(0.0, 1.4, random));
+  tracker.set_image(view_of(noise_frame(0.0, 1.4, random)));
   const auto tracks = tracker.track(pixels, pixels);
   // Chance correlations above 0.7 over 121 pixels, after a search that maximises them, stay rare.
   EXPECT_LT(std::count(tracks.found.begin(), tracks.found.end(), 1), 10);
@@ -139,7 +137,7 @@ TEST(FeatureTracker, LosesEverythingWhenTheLightGoesOut) {
 TEST(FeatureTracker, WithoutAnAnchorFindsNothing) {
   RandomStream random(1, "noise");
   FeatureTracker tracker;
-  tracker.set_image(noise_frame(50.0, 1.0, random));
+  tracker.set_image(view_of(noise_frame(50.0, 1.0, random)));
   EXPECT_TRUE(tracker.track({Vector2f(100, 100)}, {Vector2f(100, 100)}).pixels.empty());
 }
 

@@ -116,4 +116,37 @@ LidarScan vlp16_scan(const BoxWorld& world, const Motion& motion, std::int64_t s
   return scan;
 }
 
+std::vector<LidarScan> turned_scanner_sweep(const BoxWorld& world, const Motion& motion, std::int64_t sweep,
+                                            double range_sigma_m, RandomStream& noise) {
+  constexpr int kParts = 10;
+  constexpr int kLines = 4;  // a part
+  constexpr int kSteps = 361;
+  constexpr std::int64_t kLine_ns = 25'000'000;
+  std::vector<LidarScan> parts(kParts);
+  for (int line = 0; line < kParts * kLines; ++line) {
+    LidarScan& part = parts[static_cast<std::size_t>(line / kLines)];
+    part.stamp_ns = 1'000'000'000 * sweep + line / kLines * kLines * kLine_ns;
+    part.end_ns = part.stamp_ns + kLines * kLine_ns;
+    part.sweep = sweep;
+    part.ends_sweep = line / kLines == kParts - 1;
+    for (int step = 0; step < kSteps; ++step) {
+      const std::int64_t offset_ns = line % kLines * kLine_ns + kLine_ns / 2 * step / kSteps;
+      const double time_s = 1e-9 * static_cast<double>(part.stamp_ns + offset_ns);
+      const double turned = time_s - static_cast<double>(sweep) - 0.5;
+      const double joint = std::numbers::pi * (sweep % 2 == 0 ? turned : -turned);
+      const double angle = std::numbers::pi * (static_cast<double>(step) / (kSteps - 1) - 0.5);
+      const Eigen::Vector3d beam(std::cos(angle), std::sin(angle) * std::cos(joint), std::sin(angle) * std::sin(joint));
+      const Pose world_from_lidar = motion(time_s);
+      const double range = world.cast(world_from_lidar.translation, world_from_lidar.rotation * beam);
+      if (!(range < 30.0)) continue;
+      LidarPoint point;
+      point.position = ((range + range_sigma_m * noise.gaussian()) * beam).cast<float>();
+      point.offset_ns = static_cast<std::int32_t>(offset_ns);
+      point.ring = static_cast<std::uint16_t>(line);
+      part.points.push_back(point);
+    }
+  }
+  return parts;
+}
+
 }  // namespace plumbline::testing

@@ -44,4 +44,9 @@ using Motion = std::function<Pose(double time_s)>;
 LidarScan vlp16_scan(const BoxWorld& world, const Motion& motion, std::int64_t stamp_ns, const Pose& body_from_lidar,
                      double range_sigma_m, RandomStream& noise);
 
+/// A line scanner of 180 degrees in steps of half a degree, turned about its forward axis by half a turn in 1 s, back
+/// and forth: the sweep of that number, in ten parts of four lines.
+std::vector<LidarScan> turned_scanner_sweep(const BoxWorld& world, const Motion& motion, std::int64_t sweep,
+                                            double range_sigma_m, RandomStream& noise);
+
 }  // namespace plumbline::testing

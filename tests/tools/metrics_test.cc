@@ -56,6 +56,26 @@ TEST(Progress, IsNullForATruthAtRest) {
   EXPECT_NEAR(figures.ape.value().translation_m, 0.0, 1e-12);
 }
 
+TEST(RelativeError, BySecondShowsWhenItArose) {
+  const auto truth = poses_at_200_hz(8.0, straight);
+  // Walks at 1.1 times the pace through the second from 5 s on.
+  const auto figures = trajectory_figures(truth, poses_at_200_hz(8.0, [](double time_s) {
+                                            Pose pose = straight(time_s);
+                                            pose.translation.x() += 0.2 * std::clamp(time_s - 5.0, 0.0, 1.0);
+                                            return pose;
+                                          }));
+  const std::vector<double>& seconds = figures.rpe_by_second_m;
+  ASSERT_EQ(seconds.size(), 8U);  // the last holds the one motion that begins at 7 s
+  EXPECT_NEAR(seconds[3], 0.0, 1e-9);
+  // Motions that begin between 4 s and 5 s take in a share of it that grows linearly to all, those after it the rest.
+  EXPECT_NEAR(seconds[4], 0.2 / std::sqrt(3.0), 1e-3);
+  EXPECT_NEAR(seconds[5], 0.2 / std::sqrt(3.0), 1e-3);
+  EXPECT_NEAR(seconds[6], 0.0, 1e-9);
+  double squares = 0.0;
+  for (const double second : seconds) squares += second * second / 7.0;
+  EXPECT_NEAR(std::sqrt(squares), figures.rpe.value().translation_m, 1e-3);
+}
+
 TEST(Drift, IsTheErrorAtTheTruthsEndOverTheDistance) {
   const auto truth = poses_at_200_hz(27.0, straight);  // 50 m
   const auto estimate = poses_at_200_hz(27.0, [](double time_s) {

@@ -58,6 +58,9 @@ void list_sensors() {
 
 void list_estimators() {
   for (const EstimatorInfo& info : estimator_library()) print_row(info.name, info.summary, 24);
+  print_row("exec:PROGRAM ARGUMENTS", "a program that reads messages and writes poses; see tools/outside/README.md",
+            24);
+  print_row("LIBRARY.so", "a shared library that exports plumbline_make_estimator", 24);
 }
 
 void list_scenes() {

@@ -1,23 +1,23 @@
 #include "tools/commands/run.h"
 
-#include <algorithm>
+#include <tbb/global_control.h>
+
 #include <iostream>
 #include <memory>
 #include <opencv2/core/utility.hpp>
-#include <thread>
 
 #include "scenarios/session.h"
 #include "tools/commands/command.h"
+#include "tools/commands/shared_options.h"
 #include "tools/exit_code.h"
 #include "tools/interrupt.h"
 #include "tools/output/run_files.h"
 #include "tools/output/summary.h"
+#include "tools/outside/open_estimator.h"
 #include "tools/progress_line.h"
 
 namespace plumbline {
 namespace {
-
-constexpr int kMaxThreads = 1024;
 
 Scenario load(const RunArguments& arguments) {
   std::vector<std::string> overrides = arguments.overrides;
@@ -30,11 +30,6 @@ std::filesystem::path output_of(const RunArguments& arguments, const Scenario& s
   return std::filesystem::path("out") / (scenario.name + "-" + std::to_string(scenario.seed));
 }
 
-int threads_of(const RunArguments& arguments) {
-  if (arguments.threads > 0) return arguments.threads;
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
 /// A fault of ours ends the run, not its record: the directory says what happened.
 RunRecord simulate(const Scenario& scenario, const World& world, const RayScene& rays, int threads) {
   ProgressLine line(scenario.name);
@@ -45,7 +40,8 @@ RunRecord simulate(const Scenario& scenario, const World& world, const RayScene&
     return !interrupted();
   };
   try {
-    return run_session(scenario, world, rays, options);
+    const auto estimator = open_estimator(scenario);
+    return run_session(scenario, world, rays, options, *estimator);
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& error) {
@@ -55,16 +51,6 @@ RunRecord simulate(const Scenario& scenario, const World& world, const RayScene&
   }
 }
 
-/// CLI11 wraps negative numbers around when it reads an unsigned one.
-CLI::Validator whole_number() {
-  return CLI::Validator(
-      [](const std::string& text) {
-        const bool digits = text.find_first_not_of("0123456789") == std::string::npos;
-        return digits ? std::string() : "found '" + text + "'; allowed is a whole number from 0";
-      },
-      "WHOLE NUMBER");
-}
-
 int exit_code_of(const Verdict& verdict) { return interrupted() ? kExitInterrupted : verdict.exit_code(); }
 
 }  // namespace
@@ -72,9 +58,11 @@ int exit_code_of(const Verdict& verdict) { return interrupted() ? kExitInterrupt
 int run_scenario(const RunArguments& arguments) {
   const Scenario scenario = load(arguments);
   RunDirectory directory(output_of(arguments, scenario));
+  const int threads = threads_of(arguments.threads);
+  // Also of what prepares the world: a run on one thread leaves the other cores to its neighbours.
+  const tbb::global_control at_most(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   const World world = make_world(scenario);
   const RayScene rays(world);
-  const int threads = threads_of(arguments);
   // The session's threads are the run's parallelism; OpenCV's own pool would only crowd them.
   cv::setNumThreads(1);
   directory.open();
@@ -97,15 +85,11 @@ void add_run_command(CLI::App& app, Action& chosen) {
   CLI::App* run =
       app.add_subcommand("run", "Simulate a scenario, drive the estimator through it and judge what it said");
   run->add_option("SCENARIO", arguments->scenario, "scenario file")->required();
-  run->add_option("--set", arguments->overrides, "KEY=VALUE: sets a key of the scenario, such as motion.speed_factor=2")
-      ->expected(1)
-      ->take_all()
-      ->allow_extra_args(false);
+  add_set_option(*run, arguments->overrides, "KEY=VALUE: sets a key of the scenario, such as motion.speed_factor=2");
   run->add_option("--seed", arguments->seed, "instead of the scenario's")->check(whole_number());
   run->add_option("--estimator", arguments->estimator, "instead of the scenario's; see `plumbline list estimators`");
   run->add_option("--out", arguments->out, "directory for the results; out/NAME-SEED by default");
-  run->add_option("--threads", arguments->threads, "all of the machine by default; the results are the same")
-      ->check(CLI::Range(1, kMaxThreads));
+  add_threads_option(*run, arguments->threads);
   run->callback([arguments, &chosen] { chosen = [arguments] { return run_scenario(*arguments); }; });
 }
 

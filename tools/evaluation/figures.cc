@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "estimator/geometry/so3.h"
 #include "tools/evaluation/consistency.h"
 
 namespace plumbline {
@@ -10,6 +12,10 @@ namespace {
 
 constexpr double kLostFloor = 1.0;  // [m]
 constexpr double kLostShare = 0.1;  // of the distance travelled
+
+double rotation_error_deg(const PosePair& pair) {
+  return log_so3(pair.truth.rotation.conjugate() * pair.estimate.rotation).norm() * 180.0 / std::numbers::pi;
+}
 
 double position_error(const PosePair& pair) { return (pair.estimate.translation - pair.truth.translation).norm(); }
 
@@ -29,6 +35,10 @@ std::optional<double> lost_since(const std::vector<PosePair>& aligned_pairs) {
 std::vector<PosePair> moved_by(const Alignment& alignment, std::vector<PosePair> pairs) {
   for (PosePair& pair : pairs) pair.estimate = alignment.apply(pair.estimate);
   return pairs;
+}
+
+double duration_s(const StampedPoses& poses) {
+  return poses.empty() ? 0.0 : seconds_between(poses.front().stamp_ns, poses.back().stamp_ns);
 }
 
 std::optional<double> finite(std::optional<double> value) {
@@ -63,7 +73,8 @@ void append_messages(std::vector<Figure>& list, const std::string& key, const Me
 TrajectoryFigures trajectory_figures(const StampedPoses& truth, const StampedPoses& estimate,
                                      std::optional<AlignmentKind> alignment) {
   TrajectoryFigures figures;
-  if (!truth.empty()) figures.duration_s = seconds_between(truth.front().stamp_ns, truth.back().stamp_ns);
+  figures.has_truth = !truth.empty();
+  figures.duration_s = duration_s(truth);
   figures.distance_m = path_length_m(truth);
 
   const std::vector<PosePair> pairs = pair_poses_to_end(truth, estimate);
@@ -71,6 +82,7 @@ TrajectoryFigures trajectory_figures(const StampedPoses& truth, const StampedPos
   figures.drift_alignment = alignment ? align(pairs, *alignment) : Alignment{align_first_second(pairs), 1.0};
   figures.aligned = moved_by(figures.drift_alignment, pairs);
   figures.final_error_m = position_error(figures.aligned.back());
+  figures.final_error_deg = rotation_error_deg(figures.aligned.back());
   const auto worst = std::max_element(figures.aligned.begin(), figures.aligned.end(), [](const auto& a, const auto& b) {
     return position_error(a) < position_error(b);
   });
@@ -81,6 +93,7 @@ TrajectoryFigures trajectory_figures(const StampedPoses& truth, const StampedPos
   // Relative figures are blind to alignment but for a scale, which the aligned estimate already has.
   figures.kitti = kitti_error(figures.aligned, figures.distance_m);
   figures.rpe = relative_error(figures.aligned);
+  figures.rpe_by_second_m = relative_error_by_second_m(figures.aligned);
   figures.ape = absolute_error(moved_by(align(pairs, alignment.value_or(AlignmentKind::kSe3)), pairs));
   return figures;
 }
@@ -89,11 +102,12 @@ RunFigures run_figures(const RunRecord& record,
                        const std::function<double(const Eigen::Vector3d&)>& distance_to_surface) {
   RunFigures figures;
   figures.trajectory = trajectory_figures(record.ground_truth, record.estimate);
+  figures.simulated_s = figures.trajectory.has_truth ? figures.trajectory.duration_s : duration_s(record.estimate);
   figures.map = map_error(record.map, figures.trajectory.drift_alignment.truth_from_estimate, distance_to_surface);
   figures.map_points = record.map.size();
   figures.nees_mean = nees_mean(record.odometry, record.ground_truth);
   if (record.estimator_wall_s > 0.0) {
-    figures.estimator_real_time_factor = figures.trajectory.duration_s / record.estimator_wall_s;
+    figures.estimator_real_time_factor = figures.simulated_s / record.estimator_wall_s;
   }
   for (const Module module : kModules) {
     figures.modules[module] = module_figures(record, module);
@@ -105,8 +119,8 @@ RunFigures run_figures(const RunRecord& record,
 
 std::vector<Figure> figure_list(const TrajectoryFigures& figures) {
   return {
-      {"duration_s", finite(figures.duration_s)},
-      {"distance_m", finite(figures.distance_m)},
+      {"duration_s", figures.has_truth ? finite(figures.duration_s) : std::nullopt},
+      {"distance_m", figures.has_truth ? finite(figures.distance_m) : std::nullopt},
       {"drift_percent", finite(figures.drift_percent)},
       {"progress_ratio", finite(figures.progress.whole)},
       {"progress_ratio_worst_5s", finite(figures.progress.worst_5s)},
@@ -117,6 +131,7 @@ std::vector<Figure> figure_list(const TrajectoryFigures& figures) {
       {"rpe_rmse_m", finite(translation_of(figures.rpe))},
       {"rpe_rmse_deg", finite(rotation_of(figures.rpe))},
       {"final_error_m", finite(figures.final_error_m)},
+      {"final_error_deg", finite(figures.final_error_deg)},
       {"max_error_m", finite(figures.max_error_m)},
       {"lost_since_s", finite(figures.lost_since_s)},
   };

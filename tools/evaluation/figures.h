@@ -18,15 +18,18 @@ namespace plumbline {
 
 /// What a truth and an estimate say about each other.
 struct TrajectoryFigures {
+  bool has_truth = false;   ///< without one nothing else is known
   double duration_s = 0.0;  ///< of the truth
   double distance_m = 0.0;  ///< of the truth
   std::optional<double> final_error_m;
+  std::optional<double> final_error_deg;
   std::optional<double> max_error_m;
   std::optional<double> drift_percent;
   ProgressRatio progress;
   KittiError kitti;
   std::optional<RootMeanSquare> ape;
   std::optional<RootMeanSquare> rpe;
+  std::vector<double> rpe_by_second_m;  ///< see relative_error_by_second_m()
   std::optional<double>
       lost_since_s;  ///< since then the position error stays above 1 m + 10 % of the distance travelled
 
@@ -42,6 +45,7 @@ TrajectoryFigures trajectory_figures(const StampedPoses& truth, const StampedPos
 struct RunFigures {
   TrajectoryFigures trajectory;
   MapError map;
+  double simulated_s = 0.0;  ///< the truth's duration, or the estimate's where there is no truth
   std::size_t map_points = 0;
   std::optional<double> nees_mean;
   std::optional<double> estimator_real_time_factor;
@@ -51,6 +55,7 @@ struct RunFigures {
   std::map<Module, MessageTally> messages;
 };
 
+/// @param distance_to_surface  null where the world is not known
 RunFigures run_figures(const RunRecord& record,
                        const std::function<double(const Eigen::Vector3d&)>& distance_to_surface);
 

@@ -12,6 +12,7 @@ constexpr std::size_t kMaxPoints = 20'000;
 
 MapError map_error(const std::vector<MapPoint>& map, const Pose& truth_from_estimate,
                    const std::function<double(const Eigen::Vector3d&)>& distance_to_surface) {
+  if (!distance_to_surface) return {};
   const std::size_t taken = std::min(map.size(), kMaxPoints);
   std::vector<double> distances;
   distances.reserve(taken);

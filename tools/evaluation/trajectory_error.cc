@@ -1,6 +1,7 @@
 #include "tools/evaluation/trajectory_error.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "estimator/geometry/so3.h"
@@ -31,6 +32,19 @@ class ErrorSum {
   double rotation_ = 0.0;
   std::size_t count_ = 0;
 };
+
+/// Visits the error of every motion over 1 s: visit(first pair of the motion, error).
+template <typename Visit>
+void for_each_relative_error(const std::vector<PosePair>& pairs, Visit visit) {
+  std::size_t end = 0;
+  for (std::size_t start = 0; start < pairs.size(); ++start) {
+    while (end < pairs.size() && pairs[end].stamp_ns < pairs[start].stamp_ns + kRelativeNs) ++end;
+    if (end == pairs.size()) return;
+    const Pose true_motion = pairs[start].truth.inverse() * pairs[end].truth;
+    const Pose estimated_motion = pairs[start].estimate.inverse() * pairs[end].estimate;
+    visit(pairs[start], true_motion.inverse() * estimated_motion);
+  }
+}
 
 }  // namespace
 
@@ -64,15 +78,23 @@ std::optional<RootMeanSquare> absolute_error(const std::vector<PosePair>& aligne
 
 std::optional<RootMeanSquare> relative_error(const std::vector<PosePair>& pairs) {
   ErrorSum sum;
-  std::size_t end = 0;
-  for (std::size_t start = 0; start < pairs.size(); ++start) {
-    while (end < pairs.size() && pairs[end].stamp_ns < pairs[start].stamp_ns + kRelativeNs) ++end;
-    if (end == pairs.size()) break;
-    const Pose true_motion = pairs[start].truth.inverse() * pairs[end].truth;
-    const Pose estimated_motion = pairs[start].estimate.inverse() * pairs[end].estimate;
-    sum.add(true_motion.inverse() * estimated_motion);
-  }
+  for_each_relative_error(pairs, [&](const PosePair&, const Pose& error) { sum.add(error); });
   return sum.root_mean_square();
+}
+
+std::vector<double> relative_error_by_second_m(const std::vector<PosePair>& pairs) {
+  std::vector<ErrorSum> sums;
+  for_each_relative_error(pairs, [&](const PosePair& start, const Pose& error) {
+    const auto second = static_cast<std::size_t>((start.stamp_ns - pairs.front().stamp_ns) / kRelativeNs);
+    if (sums.size() <= second) sums.resize(second + 1);
+    sums[second].add(error);
+  });
+  std::vector<double> by_second_m;
+  for (const ErrorSum& sum : sums) {
+    const auto error = sum.root_mean_square();
+    by_second_m.push_back(error ? error->translation_m : std::numeric_limits<double>::quiet_NaN());
+  }
+  return by_second_m;
 }
 
 }  // namespace plumbline

@@ -31,6 +31,15 @@ void append_general(std::string& text, double value, int digits) {
   append_formatted(text, value, std::chars_format::general, digits);
 }
 
+void append_exact(std::string& text, double value) {
+  if (!std::isfinite(value)) {
+    text += "nan";
+    return;
+  }
+  std::array<char, kBufferSize> buffer{};
+  text.append(buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr);
+}
+
 void append_seconds(std::string& text, std::int64_t stamp_ns) {
   constexpr std::uint64_t kNanosecondsPerSecond = 1'000'000'000;
   if (stamp_ns < 0) text += '-';

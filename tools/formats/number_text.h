@@ -12,6 +12,9 @@ void append_fixed(std::string& text, double value, int decimals);
 /// Appends with so many significant digits, in whichever notation is shorter.
 void append_general(std::string& text, double value, int digits);
 
+/// Appends the shortest text that reads back as the same number.
+void append_exact(std::string& text, double value);
+
 /// Appends nanoseconds as seconds with nine decimals, exactly.
 void append_seconds(std::string& text, std::int64_t stamp_ns);
 

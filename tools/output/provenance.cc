@@ -36,6 +36,10 @@ std::string operating_system() {
 
 }  // namespace
 
+Machine this_machine() {
+  return {value_in("/proc/cpuinfo", "model name", ':'), std::thread::hardware_concurrency(), operating_system()};
+}
+
 std::string program_version() {
   const std::string commit = kGitCommit;
   return kVersion + (commit.empty() ? std::string() : " (" + commit + ")");
@@ -51,9 +55,7 @@ Provenance make_provenance(const Scenario& scenario, int threads) {
   provenance.seed = scenario.seed;
   provenance.estimator = scenario.estimator_name;
   provenance.threads = threads;
-  provenance.cpu = value_in("/proc/cpuinfo", "model name", ':');
-  provenance.cores = std::thread::hardware_concurrency();
-  provenance.os = operating_system();
+  provenance.machine = this_machine();
   return provenance;
 }
 
@@ -65,8 +67,8 @@ std::vector<std::pair<std::string, std::string>> provenance_rows(const Provenanc
       {"Seed", std::to_string(p.seed)},
       {"Estimator", p.estimator},
       {"Threads", std::to_string(p.threads)},
-      {"Processor", p.cpu + ", " + std::to_string(p.cores) + " cores"},
-      {"System", p.os},
+      {"Processor", p.machine.cpu + ", " + std::to_string(p.machine.cores) + " cores"},
+      {"System", p.machine.os},
   };
 }
 

@@ -9,6 +9,12 @@
 
 namespace plumbline {
 
+struct Machine {
+  std::string cpu;
+  unsigned cores = 0;
+  std::string os;
+};
+
 /// What a figure must be seen with to mean something later.
 struct Provenance {
   std::string version;
@@ -19,10 +25,10 @@ struct Provenance {
   std::uint64_t seed = 0;
   std::string estimator;
   int threads = 0;
-  std::string cpu;
-  unsigned cores = 0;
-  std::string os;
+  Machine machine;
 };
+
+Machine this_machine();
 
 /// "0.1.0 (7c7af71)": the version, and the commit where it is known.
 std::string program_version();

@@ -1,6 +1,7 @@
 #include "tools/output/result_json.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace plumbline {
@@ -25,6 +26,12 @@ void set_all(ordered_json& object, const std::vector<Figure>& figures) {
   for (const Figure& figure : figures) set(object, figure.key, number(figure.value, figure.is_count));
 }
 
+ordered_json numbers(const std::vector<double>& values) {
+  ordered_json list = ordered_json::array();
+  for (const double value : values) list.push_back(std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr));
+  return list;
+}
+
 ordered_json checks_json(const Verdict& verdict) {
   ordered_json checks = ordered_json::array();
   for (const Check& check : verdict.checks) {
@@ -46,7 +53,7 @@ ordered_json provenance_json(const Provenance& p) {
           {"scenario_digest", p.scenario_digest},
           {"estimator", p.estimator},
           {"threads", p.threads},
-          {"machine", {{"cpu", p.cpu}, {"cores", p.cores}, {"os", p.os}}}};
+          {"machine", {{"cpu", p.machine.cpu}, {"cores", p.machine.cores}, {"os", p.machine.os}}}};
 }
 
 void set_nested(ordered_json& result, const RunFigures& figures) {
@@ -74,6 +81,7 @@ std::string result_json(const RunFigures& figures, const Verdict& verdict, const
   result["estimator"] = provenance.estimator;
   set_all(result, figure_list(figures));
   result["kitti_scaled"] = figures.trajectory.kitti.scaled;
+  result["rpe_by_second_m"] = numbers(figures.trajectory.rpe_by_second_m);
   set_nested(result, figures);
   result["expect_holds"] = verdict.holds;
   result["checks"] = checks_json(verdict);
@@ -86,6 +94,7 @@ std::string trajectory_json(const TrajectoryFigures& figures) {
   result["schema_version"] = kResultSchemaVersion;
   set_all(result, figure_list(figures));
   result["kitti_scaled"] = figures.kitti.scaled;
+  result["rpe_by_second_m"] = numbers(figures.rpe_by_second_m);
   return dump(result);
 }
 

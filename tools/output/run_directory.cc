@@ -28,23 +28,25 @@ fs::path hidden_sibling(const fs::path& target) {
   return target.parent_path() / name;
 }
 
-void require_replaceable(const fs::path& target) {
+void require_replaceable(const fs::path& target, const std::string& mark) {
   std::error_code error;
   if (!fs::exists(target, error)) return;
   if (!fs::is_directory(target, error)) {
     throw InputError("--out " + target.string() + ": exists and is not a directory");
   }
   if (fs::is_empty(target, error) && !error) return;
-  if (!fs::is_regular_file(target / "result.json", error)) {
+  if (!fs::is_regular_file(target / mark, error)) {
     throw InputError("--out " + target.string() +
-                     ": the directory is not empty and holds no result.json; only a run's own directory is replaced");
+                     ": the directory is not empty and holds no " + mark +
+                     "; only a directory of the same kind is replaced");
   }
 }
 
 }  // namespace
 
-RunDirectory::RunDirectory(const fs::path& target) : target_(resolved(target)), staging_(hidden_sibling(target_)) {
-  require_replaceable(target_);
+RunDirectory::RunDirectory(const fs::path& target, const std::string& mark)
+    : mark_(mark), target_(resolved(target)), staging_(hidden_sibling(target_)) {
+  require_replaceable(target_, mark_);
 }
 
 RunDirectory::~RunDirectory() {
@@ -72,7 +74,7 @@ void RunDirectory::commit() {
   if (renameat2(AT_FDCWD, staging_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) == 0) return;
   if (errno != ENOENT) {
     // A file system that cannot exchange: the old run goes first.
-    require_replaceable(target_);
+    require_replaceable(target_, mark_);
     fs::remove_all(target_);
   }
   fs::rename(staging_, target_);

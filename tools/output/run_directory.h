@@ -6,12 +6,13 @@
 namespace plumbline {
 
 /// A directory that appears whole or not at all: files are written into a hidden sibling that takes its place at the
-/// end. A run that was there before, recognised by its result.json, is replaced whole.
+/// end. A directory of the same kind that was there before, recognised by a file of it, is replaced whole.
 class RunDirectory {
  public:
   /// Touches nothing on disk.
-  /// @throws InputError if `target` exists and is neither a run's directory nor an empty one
-  explicit RunDirectory(const std::filesystem::path& target);
+  /// @param mark  the file that every directory of the kind holds
+  /// @throws InputError if `target` exists and is neither of the kind nor empty
+  explicit RunDirectory(const std::filesystem::path& target, const std::string& mark = "result.json");
   ~RunDirectory();
   RunDirectory(const RunDirectory&) = delete;
   RunDirectory& operator=(const RunDirectory&) = delete;
@@ -26,8 +27,10 @@ class RunDirectory {
   void commit();
 
   const std::filesystem::path& target() const { return target_; }
+  const std::filesystem::path& staging() const { return staging_; }
 
  private:
+  std::string mark_;
   std::filesystem::path target_;
   std::filesystem::path staging_;
   bool open_ = false;

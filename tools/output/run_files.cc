@@ -22,7 +22,7 @@ void write_data(const RunDirectory& directory, const Scenario& scenario, const R
 void take_wall_time(RunFigures& figures) {
   const double wall_s = seconds_since_process_start();
   figures.wall_s = wall_s;
-  if (wall_s > 0.0) figures.real_time_factor = figures.trajectory.duration_s / wall_s;
+  if (wall_s > 0.0) figures.real_time_factor = figures.simulated_s / wall_s;
 }
 
 }  // namespace

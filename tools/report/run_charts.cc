@@ -21,13 +21,14 @@ constexpr double kLeastEigenvalue = 1e-2;
 constexpr double kLongestStatus = 0.5;  // [s]
 constexpr double kSmallHeight = 118.0;
 
-std::int64_t start_of(const RunRecord& record) {
-  return record.ground_truth.empty() ? 0 : record.ground_truth.front().stamp_ns;
+/// The poses that span the run's time.
+const std::vector<PoseTrack::Stamped>& spanning(const RunRecord& record) {
+  return record.ground_truth.empty() ? record.estimate : record.ground_truth;
 }
 
 ChartRange time_range(const RunRecord& record) {
-  if (record.ground_truth.size() < 2) return {0.0, 1.0};
-  return {0.0, seconds_between(start_of(record), record.ground_truth.back().stamp_ns)};
+  if (spanning(record).size() < 2) return {0.0, 1.0};
+  return {0.0, seconds_between(start_of(record), spanning(record).back().stamp_ns)};
 }
 
 std::vector<ModuleHealth> solves_of(const RunRecord& record, Module module) {
@@ -105,6 +106,10 @@ LineChart component_chart(std::string caption, std::string unit, const std::vect
 }
 
 }  // namespace
+
+std::int64_t start_of(const RunRecord& record) {
+  return spanning(record).empty() ? 0 : spanning(record).front().stamp_ns;
+}
 
 std::string error_charts(const RunRecord& record, const TrajectoryFigures& figures) {
   std::vector<double> times;

@@ -8,6 +8,9 @@
 /// The plots of a run's report, each a figure or several as HTML.
 namespace plumbline {
 
+/// The truth's first stamp, or the estimate's where there is no truth; charts count from it.
+std::int64_t start_of(const RunRecord& record);
+
 /// Position error along the true body's axes, and attitude error about them, over time.
 std::string error_charts(const RunRecord& record, const TrajectoryFigures& figures);
 

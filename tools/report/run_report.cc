@@ -4,21 +4,16 @@
 #include "tools/report/camera_picture.h"
 #include "tools/report/map_picture.h"
 #include "tools/report/markup.h"
-#include "tools/report/page_style.h"
+#include "tools/report/page_parts.h"
 #include "tools/report/run_charts.h"
 
 namespace plumbline {
 namespace {
 
-std::string heading(const std::string& title, const std::string& note) {
-  return "<h2>" + escape_markup(title) + "</h2><p class=\"note\">" + escape_markup(note) + "</p>";
-}
-
 std::string shown(const std::optional<double>& value) { return value ? readable_text(*value) : "–"; }
 
-std::string tile(const std::string& name, const std::optional<double>& value, const std::string& unit) {
-  return "<div class=\"tile\"><span>" + escape_markup(name) + "</span><b>" + shown(value) +
-         (value ? " <small>" + escape_markup(unit) + "</small>" : "") + "</b></div>";
+std::string figure_tile(const std::string& name, const std::optional<double>& value, const std::string& unit) {
+  return tile(name, shown(value), value ? unit : "");
 }
 
 std::string title_block(const RunReport& report) {
@@ -35,11 +30,14 @@ std::string tiles(const RunFigures& figures) {
   const auto lidar = figures.modules.find(Module::kLidar);
   const auto share = lidar == figures.modules.end() ? std::nullopt : lidar->second.degenerate_share;
   const auto degenerate = share ? std::optional(100.0 * *share) : std::nullopt;
-  return "<div class=\"tiles\">" + tile("Drift", t.drift_percent, "%") + tile("Progress", t.progress.whole, "× true") +
-         tile("Progress, worst 5 s", t.progress.worst_5s, "× true") + tile("Position error, rms", metres, "m") +
-         tile("Attitude error, rms", degrees, "°") + tile("Map error, rms", figures.map.rmse_m, "m") +
-         tile("Scan matching degenerate", degenerate, "%") + tile("Distance", t.distance_m, "m") +
-         tile("Duration", t.duration_s, "s") + tile("Speed", figures.real_time_factor, "× real time") + "</div>";
+  return "<div class=\"tiles\">" + figure_tile("Drift", t.drift_percent, "%") +
+         figure_tile("Progress", t.progress.whole, "× true") +
+         figure_tile("Progress, worst 5 s", t.progress.worst_5s, "× true") +
+         figure_tile("Position error, rms", metres, "m") + figure_tile("Attitude error, rms", degrees, "°") +
+         figure_tile("Map error, rms", figures.map.rmse_m, "m") +
+         figure_tile("Scan matching degenerate", degenerate, "%") + figure_tile("Distance", t.distance_m, "m") +
+         figure_tile("Duration", t.duration_s, "s") + figure_tile("Speed", figures.real_time_factor, "× real time") +
+         "</div>";
 }
 
 std::string list_item(bool holds, const std::string& text) {
@@ -63,8 +61,20 @@ std::string checks(const RunReport& report) {
   return items.empty() ? "" : "<ul class=\"checks\">" + items + "</ul>";
 }
 
+/// Where no truth is known the estimate is all there is to draw.
+std::string blind_map_section(const RunReport& report) {
+  std::vector<PosePair> path;
+  for (const auto& [stamp_ns, pose] : report.record.estimate) path.push_back({stamp_ns, pose, pose});
+  return heading("Path and map", "The estimate and the map it built. The true path is not known.") +
+         "<div class=\"legend\"><span><i class=\"estimate\"></i>estimate</span><span><i style=\"--hue:#808080\"></i>mapped "
+         "points</span></div>" +
+         map_picture(MapView::kTop, path, report.record.map, {}) +
+         map_picture(MapView::kSide, path, report.record.map, {});
+}
+
 std::string map_section(const RunReport& report) {
   const TrajectoryFigures& t = report.figures.trajectory;
+  if (!t.has_truth) return blind_map_section(report);
   const Pose& truth_from_estimate = t.drift_alignment.truth_from_estimate;
   return heading("Path and map",
                  "The estimate and the map it built, laid over the truth by the first second of motion alone, so that "
@@ -88,8 +98,7 @@ std::string degeneracy_section(const RunRecord& record) {
 std::string camera_section(const RunRecord& record) {
   std::string pictures;
   for (const FrameSnapshot& snapshot : record.snapshots) {
-    const std::int64_t start_ns = record.ground_truth.empty() ? 0 : record.ground_truth.front().stamp_ns;
-    pictures += camera_picture(snapshot, start_ns);
+    pictures += camera_picture(snapshot, start_of(record));
   }
   if (pictures.empty()) return {};
   return heading("Camera", "What the estimator saw and tracked; lines lead to where the key-frame saw each feature.") +
@@ -143,17 +152,14 @@ std::string provenance_section(const RunReport& report) {
 
 std::string report_html(const RunReport& report) {
   const RunRecord& record = report.record;
-  return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-         "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>" +
-         escape_markup(report.scenario.name) + " – Plumbline</title><style>" + kPageStyle +
-         "</style></head><body><main>" + title_block(report) + tiles(report.figures) + checks(report) +
-         map_section(report) + heading("Error over time", "In the true body's axes: forward, left, up.") +
-         "<div class=\"pair\">" + error_charts(record, report.figures.trajectory) + "</div>" +
-         degeneracy_section(record) +
-         heading("Scan matching's corrections", "What each registration changed of the prediction it started from.") +
-         "<div class=\"pair\">" + correction_charts(record) + "</div>" + camera_section(record) +
-         cost_section(report.figures) + figure_table(report.figures) + provenance_section(report) +
-         "</main></body></html>\n";
+  return page_html(
+      report.scenario.name,
+      title_block(report) + tiles(report.figures) + checks(report) + map_section(report) +
+          heading("Error over time", "In the true body's axes: forward, left, up.") + "<div class=\"pair\">" +
+          error_charts(record, report.figures.trajectory) + "</div>" + degeneracy_section(record) +
+          heading("Scan matching's corrections", "What each registration changed of the prediction it started from.") +
+          "<div class=\"pair\">" + correction_charts(record) + "</div>" + camera_section(record) +
+          cost_section(report.figures) + figure_table(report.figures) + provenance_section(report));
 }
 
 }  // namespace plumbline

@@ -4,22 +4,13 @@
 
 #include "tools/formats/number_text.h"
 #include "tools/report/markup.h"
-#include "tools/report/page_style.h"
+#include "tools/report/page_parts.h"
 #include "tools/report/sweep_charts.h"
 #include "tools/report/sweep_tables_html.h"
 #include "tools/study/statistics.h"
 
 namespace plumbline {
 namespace {
-
-std::string heading(const std::string& title, const std::string& note) {
-  return "<h2>" + escape_markup(title) + "</h2><p class=\"note\">" + escape_markup(note) + "</p>";
-}
-
-std::string tile(const std::string& name, const std::string& value, const std::string& unit) {
-  return "<div class=\"tile\"><span>" + escape_markup(name) + "</span><b>" + value + " <small>" + escape_markup(unit) +
-         "</small></b></div>";
-}
 
 std::string title_block(const SweepPlan& plan) {
   return "<header><h1>" + escape_markup(plan.name) + "</h1><span class=\"badge\">sweep</span><span class=\"sub\">" +
@@ -88,22 +79,20 @@ SweepReport sweep_report(const SweepPlan& plan, const std::vector<RunRow>& rows)
       boundary_charts(view), report.charts);
   if (!boundary.empty()) boundary += boundary_table(plan, rows);
   const std::string charts = charts_html(view, report.charts);
-  report.html =
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-      "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>" +
-      escape_markup(plan.name) + " – Plumbline</title><style>" + kPageStyle + "</style></head><body><main>" +
+  report.html = page_html(
+      plan.name,
       title_block(plan) + tiles(view) + boundary +
-      heading(
-          "Estimators",
-          "Intervals are 95 %. Compared pairwise: over the runs that both made with the same settings and seed, the "
-          "median ratio of their drifts.") +
-      estimator_table(plan, rows) +
-      heading("Failures",
-              "The worst first: runs without a result, then lost ones, then broken expectations, each by "
-              "drift. Every number leads to the run's own page.") +
-      failure_table(plan, rows) + charts + heading("All runs", "As in table.csv and table.jsonl.") +
-      run_table(plan, rows) + heading("How it was made", "The same file, seeds and program give the same tables.") +
-      origin_table(plan) + "</main></body></html>\n";
+          heading("Estimators",
+                  "Intervals are 95 %. Compared pairwise: over the runs that both made with the same settings and "
+                  "seed, the "
+                  "median ratio of their drifts.") +
+          estimator_table(plan, rows) +
+          heading("Failures",
+                  "The worst first: runs without a result, then lost ones, then broken expectations, each by "
+                  "drift. Every number leads to the run's own page.") +
+          failure_table(plan, rows) + charts + heading("All runs", "As in table.csv and table.jsonl.") +
+          run_table(plan, rows) + heading("How it was made", "The same file, seeds and program give the same tables.") +
+          origin_table(plan));
   return report;
 }
 

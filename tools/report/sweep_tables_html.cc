@@ -5,6 +5,7 @@
 
 #include "tools/formats/number_text.h"
 #include "tools/report/markup.h"
+#include "tools/report/page_parts.h"
 #include "tools/study/boundary_curves.h"
 #include "tools/study/statistics.h"
 
@@ -13,20 +14,6 @@ namespace {
 
 constexpr std::size_t kMostFailures = 100;
 constexpr std::size_t kMostRuns = 1000;
-
-std::string cell(const std::string& text) { return "<td>" + escape_markup(text) + "</td>"; }
-std::string number_cell(const std::string& text) { return "<td class=\"number\">" + escape_markup(text) + "</td>"; }
-
-std::string head(const std::vector<std::string>& columns, const std::vector<std::string>& number_columns) {
-  std::string html = "<tr>";
-  for (const std::string& column : columns) html += "<th>" + escape_markup(column) + "</th>";
-  for (const std::string& column : number_columns) html += "<th class=\"number\">" + escape_markup(column) + "</th>";
-  return html + "</tr>";
-}
-
-std::string table(const std::string& rows) {
-  return "<div class=\"card scroll wide\"><table>" + rows + "</table></div>";
-}
 
 std::string shown(const std::optional<double>& value) { return value ? readable_text(*value) : "–"; }
 
@@ -99,9 +86,9 @@ bool worse(const RunRow* a, const RunRow* b) {
 std::string run_row(const SweepPlan& plan, const RunRow& row) {
   const std::string badge = "<td><span class=\"badge " + escape_markup(row.status) + "\">" +
                             escape_markup(row.outcome == "finished" ? row.status : row.outcome) + "</span></td>";
-  return "<tr>" + run_link(row) + badge + cell(describe(plan, row.run)) +
+  return "<tr>" + run_link(row) + badge + text_cell(describe(plan, row.run)) +
          number_cell(shown(row.figure("drift_percent"))) + number_cell(shown(row.figure("progress_ratio"))) +
-         cell(row.reason) + "</tr>";
+         text_cell(row.reason) + "</tr>";
 }
 
 std::string run_head() {
@@ -113,21 +100,21 @@ std::string run_head() {
 
 std::string estimator_table(const SweepPlan& plan, const std::vector<RunRow>& rows) {
   const std::string& first = plan.estimators.front();
-  std::string html = head({"estimator"}, {"runs", "success, %", "median drift, %", "drift against " + first,
-                                          "lidar degenerate", "vision degenerate"});
+  std::string html = head_row({"estimator"}, {"runs", "success, %", "median drift, %", "drift against " + first,
+                                              "lidar degenerate", "vision degenerate"});
   for (const std::string& estimator : plan.estimators) {
     const auto own = rows_of(rows, estimator);
     const auto ok =
         static_cast<std::size_t>(std::count_if(own.begin(), own.end(), [](const RunRow* row) { return row->is_ok(); }));
     const auto rate = own.empty() ? std::nullopt : std::optional(wilson_interval(ok, own.size()));
     const auto ratio = bootstrap_median(drift_ratios(plan, rows, estimator, first), "sweep.report.ratio");
-    html += "<tr>" + cell(estimator) + number_cell(std::to_string(own.size())) + number_cell(shown(rate, 100.0)) +
+    html += "<tr>" + text_cell(estimator) + number_cell(std::to_string(own.size())) + number_cell(shown(rate, 100.0)) +
             number_cell(shown(bootstrap_median(figures_of(own, "drift_percent"), "sweep.report.drift"))) +
             number_cell(estimator == first ? "" : "× " + shown(ratio)) +
             number_cell(mean_percent(figures_of(own, "modules.lidar.degenerate_share"))) +
             number_cell(mean_percent(figures_of(own, "modules.vision.degenerate_share"))) + "</tr>";
   }
-  return table(html);
+  return wide_table(html);
 }
 
 std::string failure_table(const SweepPlan& plan, const std::vector<RunRow>& rows) {
@@ -140,8 +127,9 @@ std::string failure_table(const SweepPlan& plan, const std::vector<RunRow>& rows
   const std::size_t count = std::min(failures.size(), kMostFailures);
   std::string html = run_head();
   for (std::size_t i = 0; i < count; ++i) html += run_row(plan, *failures[i]);
-  if (count == failures.size()) return table(html);
-  return table(html) + "<p class=\"note\">and " + std::to_string(failures.size() - count) + " more, in table.csv</p>";
+  if (count == failures.size()) return wide_table(html);
+  return wide_table(html) + "<p class=\"note\">and " + std::to_string(failures.size() - count) +
+         " more, in table.csv</p>";
 }
 
 std::string run_table(const SweepPlan& plan, const std::vector<RunRow>& rows) {
@@ -149,12 +137,13 @@ std::string run_table(const SweepPlan& plan, const std::vector<RunRow>& rows) {
   std::string html = run_head();
   for (std::size_t i = 0; i < count; ++i) html += run_row(plan, rows[i]);
   return "<details><summary>" + std::to_string(count) + " of " + std::to_string(rows.size()) + " runs</summary>" +
-         table(html) + "</details>";
+         wide_table(html) + "</details>";
 }
 
 std::string boundary_table(const SweepPlan& plan, const std::vector<RunRow>& rows) {
   const SweepAxis& axis = plan.axes[plan.boundary().value()];
-  std::string html = head({"of", axis.key + " at the boundary (95 %)", "which side succeeds"}, {"runs", "whole grid"});
+  std::string html =
+      head_row({"of", axis.key + " at the boundary (95 %)", "which side succeeds"}, {"runs", "whole grid"});
   for (const BoundaryCurve& curve : boundary_curves(plan)) {
     const BoundarySearch search = replay(curve, rows).search;
     const BoundaryEstimate estimate = search.curve().boundary();
@@ -162,20 +151,20 @@ std::string boundary_table(const SweepPlan& plan, const std::vector<RunRow>& row
     const Interval place{value_of_share(axis, estimate.median), value_of_share(axis, estimate.low),
                          value_of_share(axis, estimate.high)};
     const std::string side = estimate.probability_falling > 0.5 ? "below" : "above";
-    html += "<tr>" + cell(curve.label) +
-            cell(is_inside ? shown(place)
-                           : "none in this range (with " + readable_text(100.0 * (1.0 - estimate.probability_inside)) +
-                                 " % probability)") +
-            cell(is_inside ? side : "–") + number_cell(std::to_string(search.made())) +
+    html += "<tr>" + text_cell(curve.label) +
+            text_cell(is_inside ? shown(place)
+                                : "none in this range (with " +
+                                      readable_text(100.0 * (1.0 - estimate.probability_inside)) + " % probability)") +
+            text_cell(is_inside ? side : "–") + number_cell(std::to_string(search.made())) +
             number_cell(std::to_string(curve.positions.size() * curve.keys.front().size())) + "</tr>";
   }
-  return table(html);
+  return wide_table(html);
 }
 
 std::string origin_table(const SweepPlan& plan) {
   std::string html;
   const auto add = [&](const std::string& name, const std::string& text) {
-    html += "<tr><th>" + escape_markup(name) + "</th>" + cell(text) + "</tr>";
+    html += "<tr><th>" + escape_markup(name) + "</th>" + text_cell(text) + "</tr>";
   };
   add("Plumbline", plan.program);
   add("Scenario", plan.scenario);

@@ -1,7 +1,6 @@
 #include "tools/study/child_process.h"
 
 #include <fcntl.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,27 +13,21 @@
 #include <stdexcept>
 #include <utility>
 
+#include "tools/child_setup.h"
+
 namespace plumbline {
 namespace {
 
 constexpr std::size_t kKeptOutput = 16'384;
 constexpr double kMegabyte = 1e6;
-constexpr int kCannotExecute = 127;
 
-/// Between fork and exec only calls that are safe in a signal handler are allowed, so all is prepared before.
 [[noreturn]] void become(char* const* arguments, int output, pid_t parent, const rlimit& data) {
-  // A process group of its own keeps the terminal's interrupt away; the death signal ties it to its parent.
-  setpgid(0, 0);
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(kCannotExecute);
-  const rlimit no_core{0, 0};
-  setrlimit(RLIMIT_CORE, &no_core);
+  become_child_of(parent);
   setrlimit(RLIMIT_DATA, &data);
   const int nothing = open("/dev/null", O_RDONLY);
   dup2(nothing, STDIN_FILENO);
   dup2(output, STDOUT_FILENO);
   dup2(output, STDERR_FILENO);
-  std::signal(SIGINT, SIG_DFL);
   execvp(arguments[0], arguments);
   static constexpr char kMessage[] = "the program cannot be executed\n";
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kMessage, sizeof kMessage - 1);
@@ -54,12 +47,6 @@ double resident_mb(pid_t process) {
   double pages_resident = 0.0;
   file >> pages_total >> pages_resident;
   return pages_resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / kMegabyte;
-}
-
-/// With whatever it started itself. The group does not exist yet in the child's first moment.
-void end(pid_t process) {
-  kill(-process, SIGKILL);
-  kill(process, SIGKILL);
 }
 
 double seconds(const timeval& time) {
@@ -93,7 +80,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, const RunLim
 
 ChildProcess::~ChildProcess() {
   if (process_ > 0) {
-    end(process_);
+    kill_with_group(process_);
     waitpid(process_, nullptr, 0);
   }
   if (pipe_ >= 0) close(pipe_);
@@ -125,7 +112,7 @@ std::optional<ChildEnd> ChildProcess::poll() {
   }
   if (!beyond_ && seconds_running() > limits_.time_s) beyond_ = ChildEnd::Kind::kTimeLimit;
   if (!beyond_ && resident_mb(process_) > limits_.memory_mb) beyond_ = ChildEnd::Kind::kMemoryLimit;
-  if (beyond_) end(process_);
+  if (beyond_) kill_with_group(process_);
   return std::nullopt;
 }
 

@@ -11,8 +11,8 @@ namespace {
 using nlohmann::ordered_json;
 
 /// What the table says in columns of its own, or what does not belong into it.
-constexpr std::array<std::string_view, 8> kNoFigures = {"schema_version", "status",    "fault",  "scenario",
-                                                        "seed",           "estimator", "checks", "provenance"};
+constexpr std::array<std::string_view, 9> kNoFigures = {
+    "schema_version", "status", "fault", "scenario", "seed", "estimator", "rpe_by_second_m", "checks", "provenance"};
 
 bool is_wall_clock(const std::string& key) {
   return key == "wall_s" || key.ends_with("real_time_factor") || key.ends_with("_ms");
@@ -37,7 +37,9 @@ void flatten(const std::string& key, const ordered_json& value, RunRow& row) {
   }
 }
 
-RunRow row_of(const PlannedRun& run, const StoredRun& stored) {
+}  // namespace
+
+RunRow run_row(const PlannedRun& run, const StoredRun& stored) {
   RunRow row;
   row.run = run;
   row.outcome = stored.outcome;
@@ -55,8 +57,6 @@ RunRow row_of(const PlannedRun& run, const StoredRun& stored) {
   return row;
 }
 
-}  // namespace
-
 std::optional<double> RunRow::figure(const std::string& key) const {
   const auto found =
       std::find_if(figures.begin(), figures.end(), [&](const auto& figure) { return figure.first == key; });
@@ -68,7 +68,7 @@ std::optional<double> RunRow::figure(const std::string& key) const {
 std::vector<RunRow> run_rows(const SweepPlan& plan, const std::vector<StoredRun>& stored) {
   std::vector<RunRow> rows;
   for (const StoredRun& run : stored) {
-    if (const PlannedRun* planned = plan.find(run.key)) rows.push_back(row_of(*planned, run));
+    if (const PlannedRun* planned = plan.find(run.key)) rows.push_back(run_row(*planned, run));
   }
   return rows;
 }

@@ -30,6 +30,9 @@ struct RunRow {
   std::optional<double> figure(const std::string& key) const;
 };
 
+/// @param stored  what became of `run`
+RunRow run_row(const PlannedRun& run, const StoredRun& stored);
+
 /// The stored runs that the plan knows, by key.
 std::vector<RunRow> run_rows(const SweepPlan& plan, const std::vector<StoredRun>& stored);
 

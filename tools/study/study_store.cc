@@ -136,6 +136,10 @@ void StudyStore::add(const StoredRun& run) {
   insert.bind(6, run.wall_s).bind(7, run.cpu_s).bind(8, run.peak_memory_mb).step();
 }
 
+void StudyStore::clear() {
+  execute(database_.get(), path_, "BEGIN IMMEDIATE;DELETE FROM run;DELETE FROM property;COMMIT;");
+}
+
 std::vector<StoredRun> StudyStore::runs() const {
   Statement select(database_.get(), path_,
                    "SELECT key, outcome, reason, result, output, wall_s, cpu_s, peak_memory_mb FROM run ORDER BY key");

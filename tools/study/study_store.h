@@ -36,6 +36,8 @@ class StudyStore {
   void set_property(const std::string& name, const std::string& value);
   /// In a transaction of its own; a run stored before under the same key is replaced. @throws InputError likewise
   void add(const StoredRun& run);
+  /// Forgets everything, in a transaction of its own.
+  void clear();
   /// By key.
   std::vector<StoredRun> runs() const;
 

@@ -4,6 +4,7 @@
 
 #include "scenarios/input_error.h"
 #include "tools/study/run_outcome.h"
+#include "tools/study/suite_plan.h"
 
 namespace plumbline {
 namespace {
@@ -39,7 +40,7 @@ fs::path prepared(const fs::path& root, SweepDirectory::Mode mode) {
 
 SweepDirectory::SweepDirectory(const fs::path& root, const SweepPlan& plan, Mode mode)
     : paths_{prepared(root, mode)}, plan_(plan), lock_(root), store_(paths_.store()) {
-  agree_on_plan();
+  agree_on_plan(mode);
   std::error_code error;
   fs::create_directories(paths_.runs(), error);
   if (error) throw InputError(paths_.runs().string() + ": cannot be created: " + error.message());
@@ -47,7 +48,7 @@ SweepDirectory::SweepDirectory(const fs::path& root, const SweepPlan& plan, Mode
   take_over_finished_runs();
 }
 
-void SweepDirectory::agree_on_plan() {
+void SweepDirectory::agree_on_plan(Mode mode) {
   const std::string asked = plan_json(plan_);
   const auto stored = store_.property(kPlan);
   if (!stored) {
@@ -55,9 +56,20 @@ void SweepDirectory::agree_on_plan() {
     return;
   }
   const std::string difference = plan_difference(*stored, asked);
-  if (!difference.empty()) {
+  if (difference.empty()) return;
+  if (mode != Mode::kResumeOrReplace || !is_suite_plan(plan_of_json(*stored))) {
     throw InputError("--out " + paths_.root.string() + ": holds another sweep, which differs in: " + difference);
   }
+  replace_plan(asked);
+}
+
+/// In this order: killed in between, what is left over are runs that nothing refers to.
+void SweepDirectory::replace_plan(const std::string& plan) {
+  store_.clear();
+  std::error_code error;
+  fs::remove_all(paths_.runs(), error);
+  if (error) throw InputError(paths_.runs().string() + ": cannot be removed: " + error.message());
+  store_.set_property(kPlan, plan);
 }
 
 /// A killed run's half-written directory; nobody else writes while the lock is held.

@@ -24,10 +24,15 @@ struct SweepPaths {
 /// A sweep's directory held for writing: locked, its store open, its plan agreed on.
 class SweepDirectory {
  public:
-  enum class Mode { kNew, kResume };
+  enum class Mode {
+    kNew,
+    kResume,
+    kResumeOrReplace  ///< for suites: runs of another program or another suite give way
+  };
 
   /// Makes the directory, or takes up one that holds the same sweep.
-  /// @throws InputError if it holds something else (kNew: anything), another sweep's plan, or is being written to
+  /// @throws InputError if it holds something else (kNew: anything), another sweep's plan (kResumeOrReplace: a plan
+  /// that is no suite's), or is being written to
   SweepDirectory(const std::filesystem::path& root, const SweepPlan& plan, Mode mode);
 
   const SweepPaths& paths() const { return paths_; }
@@ -36,7 +41,8 @@ class SweepDirectory {
   std::vector<RunRow> rows() const { return run_rows(plan_, store_.runs()); }
 
  private:
-  void agree_on_plan();
+  void agree_on_plan(Mode mode);
+  void replace_plan(const std::string& plan);
   void remove_leftovers() const;
   void take_over_finished_runs();
 

@@ -17,9 +17,6 @@ constexpr Range kAnyNumber{-1e12, 1e12};
 constexpr Range kPositiveNumber{1e-12, 1e12};
 constexpr Range kCount{2, 10'000};
 constexpr Range kSampleCount{1, 100'000};
-constexpr Range kSeedCount{1, 10'000};
-constexpr Range kTime_s{0.1, 1e6};
-constexpr Range kMemory_mb{1.0, 1e7};
 constexpr std::size_t kLeastBoundaryValues = 4;
 
 std::optional<double> number_in(const ConfigNode& node) {
@@ -142,23 +139,6 @@ void read_sample(ConfigReader& reader, SweepFile& sweep) {
   });
 }
 
-void read_seeds(ConfigReader& reader, SweepFile& sweep) {
-  const ConfigNode* node = reader.find("seeds");
-  if (node == nullptr) return;
-  if (!node->is_sequence()) {
-    const auto count = static_cast<std::uint64_t>(integer_of(*node, "seeds", kSeedCount));
-    for (std::uint64_t seed = 1; seed <= count; ++seed) sweep.seeds.push_back(seed);
-    return;
-  }
-  if (node->items.empty()) fail_at(*node, "seeds", "at least one seed");
-  std::set<std::uint64_t> seeds;
-  for (const ConfigNode& item : node->items) {
-    const auto seed = static_cast<std::uint64_t>(integer_of(item, "seeds", {0, 9e18}));
-    if (!seeds.insert(seed).second) fail_at(item, "seeds", "each seed once");
-  }
-  sweep.seeds.assign(seeds.begin(), seeds.end());
-}
-
 void read_estimators(ConfigReader& reader, SweepFile& sweep) {
   const ConfigNode* node = reader.find("estimators");
   if (node == nullptr) return;
@@ -170,15 +150,13 @@ void read_estimators(ConfigReader& reader, SweepFile& sweep) {
   sweep.estimators.assign(names.begin(), names.end());
 }
 
-void read_fixed(ConfigReader& reader, SweepFile& sweep) {
+/// An axis takes its own values.
+void refuse_fixed_axes(ConfigReader& reader, const SweepFile& sweep) {
   const ConfigNode* node = reader.find("set");
   if (node == nullptr) return;
-  if (!node->is_map()) fail_at(*node, "set", "a map of scenario keys and their values");
-  for (const auto& [key, value] : node->entries) {
-    const bool is_axis =
-        std::any_of(sweep.axes.begin(), sweep.axes.end(), [&](const SweepAxis& axis) { return axis.key == key; });
-    if (is_axis) fail_at(value, "set." + key, "a key that is no axis");
-    sweep.fixed.push_back(key + "=" + flow_yaml(value));
+  for (const SweepAxis& axis : sweep.axes) {
+    const auto found = node->entries.find(axis.key);
+    if (found != node->entries.end()) fail_at(found->second, "set." + axis.key, "a key that is no axis");
   }
 }
 
@@ -220,13 +198,11 @@ SweepFile read_sweep_file(const std::filesystem::path& path) {
   const bool has_scenario = reader.read("scenario", sweep.scenario);
   read_sample(reader, sweep);
   read_axes(reader, sweep);
-  read_fixed(reader, sweep);
-  read_seeds(reader, sweep);
+  read_fixed(reader, sweep.fixed);
+  refuse_fixed_axes(reader, sweep);
+  read_seeds(reader, sweep.seeds);
   read_estimators(reader, sweep);
-  reader.section("limits", [&](ConfigReader& limits) {
-    limits.read("time_s", sweep.limits.time_s, kTime_s);
-    limits.read("memory_mb", sweep.limits.memory_mb, kMemory_mb);
-  });
+  read_limits(reader, sweep.limits);
   read_boundary(reader, sweep);
   reader.finish();
   if (!has_scenario) fail_at(file, "scenario", "the scenario's file");

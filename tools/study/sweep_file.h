@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "tools/study/study_keys.h"
+
 namespace plumbline {
 
 /// A value that a key of the scenario takes.
@@ -34,12 +36,6 @@ struct SweepSample {
   enum class Kind { kLatinHypercube, kSobol };
   Kind kind = Kind::kLatinHypercube;
   std::size_t count = 0;
-};
-
-/// What a run may take before it is ended and recorded as such.
-struct RunLimits {
-  double time_s = 3600.0;
-  double memory_mb = 8192.0;  ///< resident
 };
 
 /// A sweep file, read and checked; which runs it makes is the plan's matter.

@@ -3,7 +3,6 @@
 #include <map>
 
 #include "scenarios/input_error.h"
-#include "tools/study/sweep_directory.h"
 #include "tools/study/sweep_tables.h"
 
 namespace plumbline {
@@ -53,16 +52,24 @@ std::map<std::string, Found> collect(const std::vector<fs::path>& sources, const
   return found;
 }
 
+void bring_in(const std::map<std::string, Found>& found, SweepDirectory& directory) {
+  for (const auto& [key, run] : found) {
+    copy_run(SweepPaths{run.source}.run(key), directory.paths().run(key));
+    directory.store().add(run.run);
+  }
+}
+
 }  // namespace
+
+void merge_into(SweepDirectory& target, const SweepPlan& plan, const std::vector<fs::path>& sources) {
+  bring_in(collect(sources, plan, plan_json(plan)), target);
+}
 
 MergedSweep merge_sweeps(const std::vector<fs::path>& sources, const fs::path& target) {
   const StoredSweep first = read_sweep(sources.front());
   const std::map<std::string, Found> found = collect(sources, first.plan, first.plan_text);
   SweepDirectory directory(target, first.plan, SweepDirectory::Mode::kResume);
-  for (const auto& [key, run] : found) {
-    copy_run(SweepPaths{run.source}.run(key), directory.paths().run(key));
-    directory.store().add(run.run);
-  }
+  bring_in(found, directory);
   return {first.plan, directory.rows()};
 }
 

@@ -56,32 +56,16 @@ class RunMaker {
   bool interrupted_ = false;
 };
 
-std::vector<std::string> missing_runs(const SweepPlan& plan, const std::vector<RunRow>& rows, const Shard& shard) {
-  std::set<std::string> known;
-  for (const RunRow& row : rows) known.insert(row.run.key);
-  std::vector<std::string> missing;
-  for (std::size_t i = 0; i < plan.runs.size(); ++i) {
-    if (shard.holds(i) && !known.contains(plan.runs[i].key)) missing.push_back(plan.runs[i].key);
-  }
-  return missing;
-}
-
-/// One batch of every search that goes on, round by round.
-bool search_boundaries(const SweepPlan& plan, SweepDirectory& directory, RunMaker& maker, const Shard& shard) {
+/// How many runs the boundary searches of a share may still ask for.
+std::size_t budget_left(const SweepPlan& plan, const std::vector<RunRow>& rows, const Shard& shard) {
   const std::vector<BoundaryCurve> all = boundary_curves(plan);
-  std::size_t expected = 0;
-  for (bool first = true;; first = false) {
-    const std::vector<RunRow> rows = directory.rows();
-    std::vector<std::string> batch;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (!shard.holds(i)) continue;
-      const ReplayedSearch replayed = replay(all[i], rows);
-      batch.insert(batch.end(), replayed.next.begin(), replayed.next.end());
-      if (first) expected += replayed.search.budget() - replayed.search.made();
-    }
-    if (batch.empty()) return true;
-    if (!maker.make(batch, expected)) return false;
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!shard.holds(i)) continue;
+    const BoundarySearch search = replay(all[i], rows).search;
+    left += search.budget() - search.made();
   }
+  return left;
 }
 
 }  // namespace
@@ -100,12 +84,50 @@ RunCommand plumbline_run(const SweepFile& sweep, const SweepPlan& plan, const st
   };
 }
 
+std::vector<std::string> share_of_runs(const SweepPlan& plan, const Shard& shard) {
+  std::vector<std::string> keys;
+  if (!plan.boundary()) {
+    for (std::size_t i = 0; i < plan.runs.size(); ++i) {
+      if (shard.holds(i)) keys.push_back(plan.runs[i].key);
+    }
+    return keys;
+  }
+  const std::vector<BoundaryCurve> all = boundary_curves(plan);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!shard.holds(i)) continue;
+    for (const auto& seeds : all[i].keys) keys.insert(keys.end(), seeds.begin(), seeds.end());
+  }
+  return keys;
+}
+
+std::vector<std::string> runs_to_make(const SweepPlan& plan, const std::vector<RunRow>& rows, const Shard& shard) {
+  std::vector<std::string> keys;
+  if (plan.boundary()) {
+    const std::vector<BoundaryCurve> all = boundary_curves(plan);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (!shard.holds(i)) continue;
+      const ReplayedSearch replayed = replay(all[i], rows);
+      keys.insert(keys.end(), replayed.next.begin(), replayed.next.end());
+    }
+    return keys;
+  }
+  std::set<std::string> known;
+  for (const RunRow& row : rows) known.insert(row.run.key);
+  for (const std::string& key : share_of_runs(plan, shard)) {
+    if (!known.contains(key)) keys.push_back(key);
+  }
+  return keys;
+}
+
 bool make_runs(const SweepPlan& plan, SweepDirectory& directory, const RunCommand& command,
                const SweepOptions& options) {
   RunMaker maker(plan, directory, command, options);
-  if (plan.boundary()) return search_boundaries(plan, directory, maker, options.shard);
-  const std::vector<std::string> missing = missing_runs(plan, directory.rows(), options.shard);
-  return maker.make(missing, missing.size());
+  const std::size_t searched = plan.boundary() ? budget_left(plan, directory.rows(), options.shard) : 0;
+  for (;;) {
+    const std::vector<std::string> batch = runs_to_make(plan, directory.rows(), options.shard);
+    if (batch.empty()) return true;
+    if (!maker.make(batch, plan.boundary() ? searched : batch.size())) return false;
+  }
 }
 
 }  // namespace plumbline

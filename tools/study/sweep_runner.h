@@ -30,6 +30,13 @@ struct SweepOptions {
 /// `plumbline run` of one run, on one thread.
 RunCommand plumbline_run(const SweepFile& sweep, const SweepPlan& plan, const std::string& program);
 
+/// Keys of the runs that belong to a share of the work, whether or not its boundary searches will ask for them.
+std::vector<std::string> share_of_runs(const SweepPlan& plan, const Shard& shard);
+
+/// Of a share, the runs that are to be made next, given what has been made: with a boundary to find one batch of every
+/// search that goes on, otherwise all that are missing. Empty when the share is done.
+std::vector<std::string> runs_to_make(const SweepPlan& plan, const std::vector<RunRow>& rows, const Shard& shard);
+
 /// Makes the runs that are not stored yet and stores each as it ends. With a boundary to find, those that its searches
 /// ask for.
 /// @returns whether it came to its end; if not, it was interrupted

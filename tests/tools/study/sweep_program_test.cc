@@ -1,11 +1,8 @@
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
+#include <algorithm>
 
-#include "tests/scenarios/temporary_directory.h"
+#include "tests/tools/study/program_fixture.h"
 
 namespace plumbline {
 namespace {
@@ -13,26 +10,12 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The program itself, on a sweep of two runs of a metre each.
-class SweepProgram : public ::testing::Test {
+class SweepProgram : public ProgramFixture {
  protected:
   SweepProgram() {
-    directory_.write("base.yaml",
-                     "world: {scene: garage}\n"
-                     "motion: {rest_s: 0.5, smoothing_s: 0.5, waypoints: [[6, 4.75, 1.5], [7, 4.75, 1.5]]}\n");
+    directory_.write("base.yaml", kShortScenario);
     directory_.write("sweep.yaml", "scenario: base.yaml\nestimators: [imu, vio]\n");
   }
-
-  int call(const std::string& arguments) const {
-    const std::string command =
-        "cd '" + directory_.path().string() + "' && " PLUMBLINE_PROGRAM " " + arguments + " >said.txt 2>&1";
-    return WEXITSTATUS(std::system(command.c_str()));
-  }
-  std::string content(const std::string& name) const {
-    std::ifstream file(directory_.path() / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-
-  TemporaryDirectory directory_;
 };
 
 TEST_F(SweepProgram, SweepsMergesAndReports) {
@@ -60,6 +43,23 @@ TEST_F(SweepProgram, BadInputStartsNothing) {
   EXPECT_FALSE(fs::exists(directory_.path() / "bad"));
   EXPECT_EQ(call("sweep sweep.yaml --out c --shard 0/2"), 2);
   EXPECT_EQ(call("merge nowhere --out c"), 2);
+}
+
+TEST_F(SweepProgram, InterruptedItSaysHowToGoOn) {
+  directory_.write("long.yaml", "scenario: base.yaml\nestimators: [imu]\nseeds: 40\n");
+  EXPECT_EQ(interrupted_call("sweep long.yaml --out d --jobs 1", "d/runs/0000"), 130);
+  EXPECT_NE(content("said.txt").find("what has finished is kept, the same command with --resume goes on"),
+            std::string::npos)
+      << content("said.txt");
+  EXPECT_TRUE(fs::exists(directory_.path() / "d/table.csv"));
+}
+
+TEST_F(SweepProgram, APlaceThatCannotBeWrittenToIsNamedOnce) {
+  // Whoever we are, nothing can be made there.
+  EXPECT_EQ(call("sweep sweep.yaml --out /proc/plumbline"), 2);
+  const std::string said = content("said.txt");
+  EXPECT_NE(said.find("--out /proc/plumbline: cannot be created"), std::string::npos) << said;
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
 }
 
 }  // namespace

@@ -1,0 +1,56 @@
+#include "estimator/lidar/steady_motion.h"
+
+#include <cmath>
+
+#include "estimator/geometry/interpolation.h"
+#include "estimator/geometry/so3.h"
+
+namespace plumbline {
+namespace {
+
+// How restless a carrier is: after a second its velocity and rate are others by so much.
+constexpr double kVelocityWalk = 1.0;  // [m/s/sqrt(s)]
+constexpr double kRateWalk = 0.5;      // [rad/s/sqrt(s)]
+// Before anything is known of the motion: a car on a road, turning.
+constexpr double kUnknownVelocity_mps = 10.0;
+constexpr double kUnknownRate = 0.5;
+// Attitude that is read, not estimated, is beyond correction.
+constexpr double kReadAttitude = 1e-6;  // [rad]
+
+}  // namespace
+
+void SteadyMotion::predict(const InertialSegment& segment) {
+  const double h = seconds_between(segment.start_ns, segment.end_ns);
+  Pose& pose = state_.world_from_body;
+  const Eigen::Vector3d rate = turns_ ? rate_ : segment.rate;
+  const Eigen::Quaterniond half = pose.rotation * exp_so3(0.5 * h * rate);
+  state_.velocity_in_world = turns_ ? half * velocity_in_body_ : state_.velocity_in_world;
+  pose.translation += h * state_.velocity_in_world;
+  pose.rotation = (pose.rotation * exp_so3(h * rate)).normalized();
+  state_.stamp_ns = segment.end_ns;
+}
+
+void SteadyMotion::follow(const Pose& world_from_body, const Pose& earlier_from_body, double duration_s) {
+  move(world_from_body);
+  known_ = true;
+  rate_ = log_so3(earlier_from_body.rotation) / duration_s;
+  // The chord's direction is that of half the turn, from which the body has turned on by the other half.
+  const Eigen::Vector3d chord = earlier_from_body.translation / duration_s;
+  const Eigen::Quaterniond world_from_earlier = world_from_body.rotation * earlier_from_body.rotation.conjugate();
+  state_.velocity_in_world = world_from_earlier * chord;
+  velocity_in_body_ = exp_so3(-0.5 * duration_s * rate_) * chord;
+}
+
+void SteadyMotion::move(const Pose& world_from_body) { state_.world_from_body = world_from_body; }
+
+Matrix6d SteadyMotion::motion_covariance(double duration_s) const {
+  const double root = std::sqrt(duration_s);
+  const double angle = turns_ ? duration_s * (known_ ? kRateWalk * root : kUnknownRate) : kReadAttitude;
+  const double distance = duration_s * (known_ ? kVelocityWalk * root : kUnknownVelocity_mps);
+  Matrix6d covariance = Matrix6d::Zero();
+  covariance.diagonal().head<3>().setConstant(angle * angle);
+  covariance.diagonal().tail<3>().setConstant(distance * distance);
+  return covariance;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "estimator/imu/mechanization.h"
+
+namespace plumbline {
+
+/// Prediction without inertial readings: the body goes on turning and moving as it last did, in its own frame.
+class SteadyMotion {
+ public:
+  /// @param turns  false: attitude is not predicted but read from the segments' rates
+  SteadyMotion(const NavigationState& start, bool turns) : state_(start), turns_(turns) {}
+
+  void predict(const InertialSegment& segment);
+  /// The pose at now is corrected, and the motion that led to it from an earlier pose goes on.
+  void follow(const Pose& world_from_body, const Pose& earlier_from_body, double duration_s);
+  void move(const Pose& world_from_body);
+
+  const NavigationState& state() const { return state_; }  ///< its velocity too
+  /// Of a motion over a time: what rate and velocity may have changed since they were measured.
+  Matrix6d motion_covariance(double duration_s) const;
+
+ private:
+  NavigationState state_;
+  Eigen::Vector3d velocity_in_body_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();
+  bool turns_;
+  bool known_ = false;
+};
+
+}  // namespace plumbline

@@ -1,0 +1,214 @@
+#include "estimator/pipeline/demo.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <utility>
+
+#include "estimator/lidar/deskew.h"
+#include "estimator/lidar/features.h"
+#include "estimator/pipeline/module_health.h"
+
+namespace plumbline {
+namespace {
+
+constexpr std::int64_t kTrackLength_ns = 3'000'000'000;
+/// A scan waits for an image taken after its end; if none comes it makes do with constant velocity.
+constexpr std::int64_t kLongestWait_ns = 200'000'000;
+/// The rows of one image share errors that whitening does not know, such as those of the depth map.
+constexpr double kInflation = 10.0;
+/// What constant velocity foresees of the next image: see FrameToFrameConfig::degeneracy_threshold.
+constexpr double kPredictionInformation = 2500.0;
+/// Of a sweep's predicted pose besides the motion since the last one: the map's own.
+constexpr double kMapRotationSigma = 0.002;
+constexpr double kMapTranslationSigma_m = 0.02;
+constexpr double kLost_s = 2.0;  // without any image that could be solved
+constexpr double kLostSigma_m = 10.0;
+
+FrameToFrameConfig vision_config(const DemoConfig& stages) {
+  FrameToFrameConfig config;
+  config.map_depth_only = stages.map_depth_only;
+  return config;
+}
+
+MessageUse clocked_use(const Calibration& calibration, EstimatorConfig config) {
+  config.imu_enabled = false;
+  return message_use(calibration, config);
+}
+
+Matrix6d step_covariance(const FrameToFrame::Step& step) {
+  const Matrix6d prior = kPredictionInformation * Matrix6d::Identity();
+  const Matrix6d information = step.skipped ? prior : Matrix6d(step.solved.information + prior);
+  return kInflation * information.ldlt().solve(Matrix6d::Identity());
+}
+
+/// A covariance of world_from_body carried over to the body after a motion.
+Matrix6d carried(const Matrix6d& covariance, const Pose& before_from_after) {
+  const Matrix6d turn = adjoint(before_from_after.inverse());
+  return turn * covariance * turn.transpose();
+}
+
+}  // namespace
+
+Demo::Demo(const Calibration& calibration, const EstimatorConfig& config, const DemoConfig& stages)
+    : calibration_(calibration),
+      config_(config),
+      stages_(stages),
+      gate_(clocked_use(calibration, config)),
+      vision_(calibration, vision_config(stages), config.remapping),
+      sweeps_(calibration, config.remapping),
+      matcher_(calibration, ScanMatcherConfig{}, config.remapping) {
+  stages_.scan_matching = stages.scan_matching && config.lidar_enabled;
+  stages_.sweep_refinement = stages.sweep_refinement && config.lidar_enabled;
+}
+
+void Demo::add(const ImuSample& received) {
+  const std::optional<ImuSample> tick = gate_.admit(received);
+  if (!tick) return;
+  while (const auto message = gate_.next(tick->stamp_ns)) {
+    std::visit([this](const auto& payload) { handle(payload); }, *message);
+  }
+  use_scans(tick->stamp_ns);
+  outputs_.push_back(output(tick->stamp_ns));
+  outputs_.back().health = std::exchange(health_, {});
+}
+
+void Demo::add(const CameraFrame& frame) { gate_.admit(frame); }
+void Demo::add(const DepthFrame& frame) { gate_.admit(frame); }
+void Demo::add(const LidarScan& scan) { gate_.admit(scan); }
+void Demo::add(const PointFrame& frame) { gate_.admit(frame); }
+
+void Demo::handle(const CameraFrame& frame) { see(frame); }
+void Demo::handle(const PointFrame& frame) { see(frame); }
+
+template <typename Frame>
+void Demo::see(const Frame& frame) {
+  const StopWatch watch;
+  if (frame.camera_id != 0) {
+    gate_.count_used(Module::kVision);
+    return vision_.add_stereo(frame);
+  }
+  if (!odometry_.empty() && frame.stamp_ns <= odometry_.last_ns()) return gate_.drop(Module::kVision, "late");
+  gate_.count_used(Module::kVision);
+  const bool has_previous = vision_.started();
+  const std::int64_t previous_ns = vision_.newest_ns();
+  const FrameToFrame::Step step = vision_.process(frame);
+  odometry_.push(frame.stamp_ns, vision_.odometry_from_body());
+  odometry_.forget_before(frame.stamp_ns - kTrackLength_ns);
+  if (has_previous) note(step, previous_ns);
+  use_scans(frame.stamp_ns);
+  adjust_when_due();
+  health_.push_back(health_of(frame.stamp_ns, Module::kVision, step.solved, step.predicted, watch.seconds()));
+}
+
+void Demo::handle(const DepthFrame& frame) {
+  gate_.count_used(Module::kVision);
+  if (vision_.started()) vision_.add_depth_image(frame);
+}
+
+void Demo::handle(const LidarScan& scan) { scans_.push_back(scan); }
+
+void Demo::note(const FrameToFrame::Step& step, std::int64_t previous_ns) {
+  const std::int64_t newest_ns = vision_.newest_ns();
+  const Pose motion = odometry_.at(previous_ns).inverse() * odometry_.at(newest_ns);
+  const Matrix6d added = step_covariance(step);
+  covariance_ = carried(covariance_, motion) + added;
+  since_match_ = carried(since_match_, motion) + added;
+  covariance_rate_ = added / seconds_between(previous_ns, newest_ns);
+  if (step.skipped) return;
+  solved_ns_ = newest_ns;
+  ++images_;
+}
+
+/// Every fifth image that was solved joins the window; a full window is refined, and its last image starts the next.
+void Demo::adjust_when_due() {
+  if (!stages_.bundle_adjustment || !vision_.started()) return;
+  const bool solved = bundle_.empty() || solved_ns_ == vision_.newest_ns();
+  if (!solved || images_ % bundle_config_.image_stride != 0) return;
+  bundle_.push_back({vision_.odometry_from_body(), vision_.inliers()});
+  if (bundle_.size() < static_cast<std::size_t>(bundle_config_.window_images)) return;
+  const Pose& first = bundle_.front().odometry_from_body;
+  if (const auto first_from_body = adjust_bundle(bundle_, calibration_, bundle_config_)) {
+    integration_.refine(integration_.world_from_body(first) * first_from_body->back(),
+                        bundle_.back().odometry_from_body);
+  }
+  bundle_.erase(bundle_.begin(), bundle_.end() - 1);
+}
+
+void Demo::use_scans(std::int64_t now_ns) {
+  while (!scans_.empty()) {
+    const std::int64_t end_ns = scans_.front().end_ns;
+    const bool covered = !odometry_.empty() && end_ns <= odometry_.last_ns();
+    if (!covered && now_ns < end_ns + kLongestWait_ns) return;
+    if (!covered && vision_.started()) odometry_.push(end_ns, vision_.predicted(end_ns));
+    const LidarScan scan = std::move(scans_.front());
+    scans_.pop_front();
+    use(scan);
+  }
+}
+
+void Demo::use(const LidarScan& scan) {
+  // No motion is known before the first image.
+  if (!odometry_.covers(scan.stamp_ns) || !odometry_.covers(scan.end_ns)) {
+    return gate_.drop(Module::kLidar, "before the start");
+  }
+  gate_.count_used(Module::kLidar);
+  const auto points_in_body = deskew(scan, odometry_, calibration_.body_from_lidar, scan.end_ns);
+  vision_.add_depth_points(scan.end_ns, points_in_body, odometry_.at(scan.end_ns));
+  if (stages_.sweep_refinement) return refine_with_sweep(scan);
+  if (!stages_.scan_matching) return;
+  const StopWatch watch;
+  const FeatureCloud features = extract_features(scan, points_in_body, calibration_);
+  match(features, scan.end_ns, integration_.world_from_body(odometry_.at(scan.end_ns)), watch.seconds());
+}
+
+void Demo::refine_with_sweep(const LidarScan& part) {
+  const StopWatch watch;
+  const auto sweep = sweeps_.add(part, odometry_, since_match_covariance());
+  if (!sweep) return;
+  if (sweep->solved.features > 0) {
+    health_.push_back(health_of(sweep->end_ns, Module::kLidar, sweep->solved, sweep->solved.pose, watch.seconds()));
+  }
+  match(sweep->features, sweep->end_ns, world_from_last_match_ * sweep->last_end_from_end, 0.0);
+}
+
+/// @param predicted  world_from_body at the features' time
+/// @param seconds  already spent on them
+void Demo::match(const FeatureCloud& features, std::int64_t stamp_ns, const Pose& predicted, double seconds) {
+  const StopWatch watch;
+  const SolveResult solved = matcher_.match(features, {predicted, since_match_covariance()});
+  integration_.refine(solved.pose, odometry_.at(stamp_ns));
+  path_m_ += (solved.pose.translation - world_from_last_match_.translation).norm();
+  world_from_last_match_ = solved.pose;
+  matcher_.insert(features, solved.pose, path_m_);
+  if (solved.spectrum.well_conditioned == 6) since_match_.setZero();
+  health_.push_back(health_of(stamp_ns, Module::kLidar, solved, predicted, seconds + watch.seconds()));
+}
+
+Matrix6d Demo::since_match_covariance() const {
+  Matrix6d covariance = since_match_;
+  covariance.diagonal().head<3>().array() += kMapRotationSigma * kMapRotationSigma;
+  covariance.diagonal().tail<3>().array() += kMapTranslationSigma_m * kMapTranslationSigma_m;
+  return covariance;
+}
+
+Odometry Demo::output(std::int64_t stamp_ns) {
+  Odometry odometry;
+  odometry.stamp_ns = stamp_ns;
+  if (!vision_.started()) return odometry;
+  odometry.world_from_body = integration_.world_from_body(vision_.predicted(stamp_ns));
+  const double since_image_s = std::max(0.0, seconds_between(vision_.newest_ns(), stamp_ns));
+  odometry.covariance = covariance_ + since_image_s * covariance_rate_;
+  const double since_output_s = output_ns_ == 0 ? 0.0 : seconds_between(output_ns_, stamp_ns);
+  odometry.increment_covariance = since_output_s * covariance_rate_;
+  output_ns_ = stamp_ns;
+  odometry.lost = (solved_ns_ != 0 && seconds_between(solved_ns_, stamp_ns) > kLost_s) ||
+                  odometry.covariance.bottomRightCorner<3, 3>().trace() > kLostSigma_m * kLostSigma_m;
+  return odometry;
+}
+
+std::vector<Odometry> Demo::take() { return std::exchange(outputs_, {}); }
+MessageCounts Demo::counts(Module module) const { return gate_.counts(module); }
+std::vector<TrackedFeature> Demo::features() const { return vision_.features(); }
+std::vector<MapPoint> Demo::map() const { return matcher_.map(); }
+
+}  // namespace plumbline

@@ -1,0 +1,271 @@
+#include "estimator/pipeline/loam.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "estimator/lidar/deskew.h"
+#include "estimator/lidar/features.h"
+#include "estimator/pipeline/module_health.h"
+
+namespace plumbline {
+namespace {
+
+constexpr std::int64_t kTrackLength_ns = 3'000'000'000;  // the sweep before, the growing one and a late arrival
+// After a longer silence of the lidar the motion is no longer linear: odometry starts anew.
+constexpr std::int64_t kLongestGap_ns = 2'500'000'000;
+constexpr std::int64_t kMaxImuGap_ns = 500'000'000;
+
+// A solution's rows share errors that whitening does not know: the map's, or the last sweep's.
+constexpr double kInflation = 25.0;
+constexpr int kFirstSweepRounds = 3;
+constexpr int kFirstEffort = 6;
+constexpr double kLostSigma_m = 10.0;
+
+// Where the lidar alone tells the pose, odometry may be wrong by this much when it comes to matching with the map.
+constexpr double kOdometrySigma_m = 0.1;
+constexpr double kOdometrySigma_rad = 0.02;
+constexpr double kReadAttitudeSigma_rad = 1e-6;  // attitude that is read is beyond correction
+
+MessageUse use_of(ImuUse imu) {
+  MessageUse use;
+  use.lidar = true;
+  use.imu = imu != ImuUse::kNone;
+  return use;
+}
+
+}  // namespace
+
+Loam::Loam(const Calibration& calibration, const EstimatorConfig& config, ImuUse imu)
+    : calibration_(calibration),
+      imu_(imu),
+      mapping_(config.lidar_enabled),
+      remapping_(config.remapping),
+      gate_(use_of(imu)),
+      initializer_(calibration),
+      odometry_(calibration, config.remapping),
+      matcher_(calibration, ScanMatcherConfig{}, config.remapping) {}
+
+void Loam::add(const ImuSample& received) {
+  const std::optional<ImuSample> admitted = gate_.admit(received);
+  if (!admitted) return;
+  const ImuSample& sample = *admitted;
+  const ImuSample previous = std::exchange(last_sample_, sample);
+  if (!started()) {
+    if (const auto start = start_from(sample)) start_with(*start);
+  } else {
+    InertialSegment segment = segment_between(previous, sample);
+    if (sample.stamp_ns - previous.stamp_ns > kMaxImuGap_ns) segment.rate_slope = segment.force_slope.setZero();
+    while (const auto message = gate_.next(sample.stamp_ns)) {
+      advance_to(stamp_of(*message), segment);
+      handle(std::get<LidarScan>(*message));
+    }
+    advance_to(sample.stamp_ns, segment);
+  }
+  outputs_.push_back(output(sample.stamp_ns));
+  outputs_.back().health = std::exchange(health_, {});
+}
+
+std::optional<InitialState> Loam::start_from(const ImuSample& sample) {
+  // Level by decree: there is nothing else to go by.
+  if (imu_ != ImuUse::kNone) return initializer_.add(sample);
+  InitialState level;
+  level.state.stamp_ns = sample.stamp_ns;
+  return level;
+}
+
+void Loam::start_with(const InitialState& start) {
+  if (imu_ == ImuUse::kFull) {
+    filter_.emplace(start, calibration_.imu, remapping_);
+  } else {
+    steady_.emplace(start.state, imu_ == ImuUse::kNone);
+  }
+  track_.push(start.state.stamp_ns, start.state.world_from_body);
+  gate_.start_at(start.state.stamp_ns);
+}
+
+void Loam::advance_to(std::int64_t stamp_ns, const InertialSegment& segment) {
+  const std::int64_t now_ns = state().stamp_ns;
+  if (stamp_ns <= now_ns) return;
+  const InertialSegment part = segment.part(now_ns, stamp_ns);
+  if (filter_) filter_->predict(part);
+  if (steady_) steady_->predict(part);
+  track_.push(stamp_ns, state().world_from_body);
+  track_.forget_before(stamp_ns - kTrackLength_ns);
+}
+
+void Loam::add(const LidarScan& scan) {
+  gate_.admit(scan);
+  if (!started()) return;
+  while (const auto message = gate_.next(state().stamp_ns)) handle(std::get<LidarScan>(*message));
+}
+
+void Loam::handle(const LidarScan& part) {
+  // Of a scan that began before the start no motion is known, unless none is known at all.
+  const bool known = track_.covers(part.end_ns) && (imu_ == ImuUse::kNone || track_.covers(part.stamp_ns));
+  if (!known) return gate_.drop(Module::kLidar, "before the start");
+  gate_.count_used(Module::kLidar);
+  const StopWatch watch;
+  const std::optional<LidarScan> sweep = assembler_.add(part);
+  const std::int64_t now_ns = newest_return_ns(part);
+  if (now_ns - odometry_.reference_ns() > kLongestGap_ns) odometry_ = SweepOdometry(calibration_, remapping_);
+  if (growing_ && *growing_ != part.sweep) odometry_.discard();  // its end never came
+  growing_ = part.sweep;
+  if (odometry_.begun() && now_ns > odometry_.reference_ns()) follow(part, now_ns);
+  if (sweep) growing_.reset();
+  if (sweep) finish({*sweep, newest_return_ns(*sweep), sweep->stamp_ns != part.stamp_ns});
+  if (!health_.empty() && sweep) health_.back().processing_s = watch.seconds();
+}
+
+/// Odometry within the growing sweep.
+void Loam::follow(const LidarScan& part, std::int64_t now_ns) {
+  FeatureCloud features = features_of(part, track_, now_ns);
+  const Pose predicted = predicted_motion(now_ns);
+  const auto later_s = static_cast<float>(seconds_between(odometry_.reference_ns(), part.stamp_ns));
+  move(features, predicted, later_s);
+  odometry_.add(features);
+  motion_ = odometry_.solve(now_ns, {predicted, motion_covariance(now_ns)}, std::nullopt, effort());
+  followed_ns_ = now_ns;
+}
+
+void Loam::finish(const Sweep& sweep) {
+  const std::int64_t middle_ns = sweep.scan.stamp_ns + (sweep.end_ns - sweep.scan.stamp_ns) / 2;
+  if (!odometry_.begun()) {
+    first_ = sweep;
+    FeatureCloud features = features_of(sweep.scan, track_, sweep.end_ns);
+    return begin_sweep(std::move(features), middle_ns, sweep.end_ns,
+                       track_.at(middle_ns).inverse() * track_.at(sweep.end_ns));
+  }
+  if (followed_ns_ != sweep.end_ns) return odometry_.discard();
+  if (first_) redo_first_sweep();
+  // Of a sweep in parts the whole is taken up anew: across all its lines normals reach further.
+  FeatureCloud features = sweep.in_parts
+                              ? features_of(sweep.scan, corrected_track(), sweep.end_ns)
+                              : odometry_.corrected(sweep.end_ns, predicted_motion(sweep.end_ns), motion_.pose);
+  const Pose middle_from_end =
+      corrected(track_.at(middle_ns), middle_ns).inverse() * corrected(track_.at(sweep.end_ns), sweep.end_ns);
+  take_motion(sweep.end_ns);
+  match(features, sweep.end_ns);
+  begin_sweep(std::move(features), middle_ns, sweep.end_ns, middle_from_end);
+}
+
+/// The first sweep was taken up before any motion was known. Now some is: what it is told by the second sweep.
+void Loam::redo_first_sweep() {
+  const std::int64_t middle_ns = odometry_.reference_ns();
+  FeatureCloud features;
+  for (int round = 0; round < kFirstSweepRounds; ++round) {
+    features = features_of(first_->scan, corrected_track(), middle_ns);
+    odometry_.revise(features);
+    motion_ = odometry_.solve(followed_ns_, {predicted_motion(followed_ns_), motion_covariance(followed_ns_)},
+                              motion_.pose, effort());
+  }
+  matcher_.insert(features, world_from_reference(), path_m_);
+  last_position_ = world_from_reference().translation;
+  first_.reset();
+}
+
+void Loam::match(const FeatureCloud& features, std::int64_t stamp_ns) {
+  const Pose predicted = track_.at(stamp_ns);
+  if (mapping_) {
+    const SolveResult solved = matcher_.match(features, {predicted, pose_covariance()});
+    take_pose(solved, predicted);
+    health_.push_back(health_of(stamp_ns, Module::kLidar, solved, predicted, 0.0));
+  }
+  const Pose world_from_body = track_.at(stamp_ns);
+  path_m_ += (world_from_body.translation - last_position_).norm();
+  last_position_ = world_from_body.translation;
+  matcher_.insert(features, world_from_body, path_m_);
+}
+
+/// Odometry's motion of a whole sweep. With an IMU the map alone feeds back: over a sweep the IMU knows its motion
+/// better than the difference of two sweeps does.
+void Loam::take_motion(std::int64_t now_ns) {
+  if (!steady_) return;
+  const Pose moved = corrected(track_.at(now_ns), now_ns) * track_.at(now_ns).inverse();
+  steady_->follow(moved * state().world_from_body, motion_.pose, seconds_between(odometry_.reference_ns(), now_ns));
+  track_.premultiply(moved);
+}
+
+void Loam::take_pose(const SolveResult& solved, const Pose& predicted) {
+  const Pose before = state().world_from_body;
+  if (filter_) filter_->update_pose(solved, predicted, kInflation);
+  if (steady_) steady_->move(solved.pose * predicted.inverse() * before);
+  track_.premultiply(state().world_from_body * before.inverse());
+}
+
+/// @param last_sweep  in B at its end
+void Loam::begin_sweep(FeatureCloud last_sweep, std::int64_t middle_ns, std::int64_t end_ns,
+                       const Pose& middle_from_end) {
+  move(last_sweep, middle_from_end, 0.0F);
+  odometry_.begin(last_sweep, middle_ns);
+  last_end_ns_ = end_ns;
+  reference_from_last_end_ = middle_from_end;
+  if (filter_) filter_->set_keyframe(track_.at(end_ns));
+  motion_ = {};
+  followed_ns_ = middle_ns;
+}
+
+/// In B at reference_ns.
+FeatureCloud Loam::features_of(const LidarScan& scan, const PoseTrack& world_from_body,
+                               std::int64_t reference_ns) const {
+  return extract_features(scan, deskew(scan, world_from_body, calibration_.body_from_lidar, reference_ns),
+                          calibration_);
+}
+
+Pose Loam::world_from_reference() const { return track_.at(last_end_ns_) * reference_from_last_end_.inverse(); }
+
+/// While no motion is known, cars that move along may outvote what stands still.
+int Loam::effort() const { return first_ ? kFirstEffort : 1; }
+
+/// reference_from_body.
+Pose Loam::predicted_motion(std::int64_t now_ns) const { return world_from_reference().inverse() * track_.at(now_ns); }
+
+Matrix6d Loam::motion_covariance(std::int64_t now_ns) const {
+  return filter_ ? filter_->keyframe_motion_covariance()
+                 : steady_->motion_covariance(seconds_between(odometry_.reference_ns(), now_ns));
+}
+
+Matrix6d Loam::pose_covariance() const {
+  if (filter_) return filter_->pose_covariance();
+  Matrix6d covariance = Matrix6d::Zero();
+  const double turn_sigma = imu_ == ImuUse::kNone ? kOdometrySigma_rad : kReadAttitudeSigma_rad;
+  covariance.diagonal().head<3>().setConstant(turn_sigma * turn_sigma);
+  covariance.diagonal().tail<3>().setConstant(kOdometrySigma_m * kOdometrySigma_m);
+  return covariance;
+}
+
+/// A predicted world_from_body with what odometry found wrong with it, growing linearly from the reference time on.
+Pose Loam::corrected(const Pose& world_from_body, std::int64_t stamp_ns) const {
+  const std::int64_t reference_ns = odometry_.reference_ns();
+  if (followed_ns_ <= reference_ns) return world_from_body;
+  const double share = seconds_between(reference_ns, stamp_ns) / seconds_between(reference_ns, followed_ns_);
+  const Pose origin = world_from_reference();
+  return origin * linear_share(motion_.pose, predicted_motion(followed_ns_), share) * origin.inverse() *
+         world_from_body;
+}
+
+PoseTrack Loam::corrected_track() const {
+  PoseTrack result;
+  for (const PoseTrack::Stamped& at : track_.poses()) result.push(at.stamp_ns, corrected(at.pose, at.stamp_ns));
+  return result;
+}
+
+Odometry Loam::output(std::int64_t stamp_ns) const {
+  Odometry odometry;
+  odometry.stamp_ns = stamp_ns;
+  if (!started()) {
+    odometry.world_from_body = initializer_.attitude();
+    return odometry;
+  }
+  odometry.world_from_body = corrected(state().world_from_body, stamp_ns);
+  odometry.velocity_in_world = state().velocity_in_world;
+  odometry.gyro_bias = state().gyro_bias;
+  odometry.accel_bias = state().accel_bias;
+  odometry.covariance = pose_covariance();
+  odometry.lost = odometry.covariance.bottomRightCorner<3, 3>().trace() > kLostSigma_m * kLostSigma_m ||
+                  !state().world_from_body.translation.allFinite();
+  return odometry;
+}
+
+std::vector<Odometry> Loam::take() { return std::exchange(outputs_, {}); }
+
+}  // namespace plumbline

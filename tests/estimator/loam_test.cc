@@ -1,0 +1,186 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+#include <memory>
+
+#include "estimator/estimator.h"
+#include "estimator/geometry/so3.h"
+#include "estimator/lidar/sweep_assembler.h"
+#include "tests/support/box_world.h"
+
+namespace plumbline {
+namespace {
+
+using testing::Motion;
+
+constexpr std::int64_t kClock_ns = 10'000'000;
+
+Calibration calibration_of(int rings, double sweep_rate_hz) {
+  Calibration calibration;
+  calibration.has_camera = false;
+  calibration.imu_rate_hz = 100.0;
+  calibration.lidar_rings = rings;
+  calibration.lidar_rate_hz = sweep_rate_hz;
+  return calibration;
+}
+
+/// An estimator without an IMU, its clock, and what it put out.
+class Run {
+ public:
+  explicit Run(const Calibration& calibration, EstimatorConfig config = {}) {
+    config.imu_enabled = false;
+    estimator_ = make_estimator("loam", calibration, config);
+  }
+
+  void add(const LidarScan& scan) {
+    wait_until(scan.end_ns);
+    estimator_->add(scan);
+  }
+  void wait_until(std::int64_t stamp_ns) {
+    for (; clock_ns_ < stamp_ns; clock_ns_ += kClock_ns) estimator_->add(ImuSample{clock_ns_ + kClock_ns, {}, {}});
+    for (const Odometry& o : estimator_->take()) poses_[o.stamp_ns] = o.world_from_body;
+  }
+  const Pose& at(std::int64_t stamp_ns) const { return poses_.at(stamp_ns); }
+  const Estimator& estimator() const { return *estimator_; }
+
+  /// Of the motion between two stamps, [rotation; translation].
+  Vector6d error(const Motion& truth, std::int64_t from_ns, std::int64_t to_ns) const {
+    const Pose moved = truth(1e-9 * static_cast<double>(from_ns)).inverse() * truth(1e-9 * static_cast<double>(to_ns));
+    return moved.local(at(from_ns).inverse() * at(to_ns));
+  }
+
+ private:
+  std::unique_ptr<Estimator> estimator_;
+  std::int64_t clock_ns_ = 0;
+  std::map<std::int64_t, Pose> poses_;
+};
+
+Motion turning_walk(double speed_mps, double rate) {
+  return [=](double t) {
+    return Pose{exp_so3({0.0, 0.0, rate * t}), {speed_mps * t - 2.0, 0.3 * std::sin(0.4 * t), 0.2}};
+  };
+}
+
+TEST(Loam, FollowsATurnedScannerWithoutAnImu) {
+  const testing::BoxWorld room = testing::furnished_room();
+  const Motion motion = turning_walk(0.4, 0.1);
+  RandomStream noise(1, "lidar");
+  Run run(calibration_of(40, 1.0));
+  for (std::int64_t sweep = 0; sweep < 6; ++sweep) {
+    for (const LidarScan& part : testing::turned_scanner_sweep(room, motion, sweep, 0.01, noise)) run.add(part);
+  }
+  run.wait_until(6'010'000'000);
+  // Two metres and half a radian of motion, in motion from the first sample on, measured to 1 cm a return.
+  const Vector6d error = run.error(motion, 2'100'000'000, 6'010'000'000);
+  EXPECT_LT(error.tail<3>().norm(), 0.03);
+  EXPECT_LT(error.head<3>().norm(), 0.01);
+  EXPECT_EQ(run.estimator().counts(Module::kLidar).used, 60);
+}
+
+TEST(Loam, GivesTheMotionWithinASweep) {
+  const testing::BoxWorld room = testing::furnished_room();
+  const Motion motion = turning_walk(0.4, 0.1);
+  RandomStream noise(2, "lidar");
+  Run run(calibration_of(40, 1.0));
+  for (std::int64_t sweep = 0; sweep < 4; ++sweep) {
+    for (const LidarScan& part : testing::turned_scanner_sweep(room, motion, sweep, 0.01, noise)) run.add(part);
+  }
+  run.wait_until(4'010'000'000);
+  for (std::int64_t at_ns = 3'000'000'000; at_ns < 3'900'000'000; at_ns += 100'000'000) {
+    EXPECT_LT(run.error(motion, at_ns, at_ns + 100'000'000).tail<3>().norm(), 0.04) << at_ns;
+  }
+}
+
+TEST(Loam, DoesNotRingFromSweepToSweep) {
+  const testing::BoxWorld hall = testing::pillared_hall(40.0);
+  const Motion motion = [](double t) {
+    return Pose{exp_so3({0.0, 0.02 * std::sin(3.0 * t), 0.0}), {8.0 * t + 0.75 * t * t, 0.0, 0.5}};
+  };
+  RandomStream noise(3, "lidar");
+  Run run(calibration_of(16, 10.0));
+  for (std::int64_t k = 0; k < 20; ++k) run.add(testing::vlp16_scan(hall, motion, k * 100'000'000, {}, 0.012, noise));
+  run.wait_until(2'010'000'000);
+  // Each step's error stays that of one match; a ringing end pose is off by decimetres, up and down by turns.
+  for (std::int64_t k = 5; k < 20; ++k) {
+    const Vector6d error = run.error(motion, k * 100'000'000 + kClock_ns, (k + 1) * 100'000'000 + kClock_ns);
+    EXPECT_LT(error.tail<3>().norm(), 0.04) << k;
+  }
+}
+
+TEST(Loam, TakesSweepsWhoseReturnsBearOneTime) {
+  const testing::BoxWorld room = testing::furnished_room();
+  RandomStream noise(4, "lidar");
+  Run run(calibration_of(16, 10.0));
+  for (std::int64_t k = 0; k < 4; ++k) {
+    const Motion rest = [k](double) {
+      return Pose{exp_so3({0.0, 0.0, 0.02 * static_cast<double>(k)}),
+                  {0.3 * static_cast<double>(k), 0.05 * static_cast<double>(k), 0.0}};
+    };
+    LidarScan scan = testing::vlp16_scan(room, rest, k * 100'000'000, {}, 0.012, noise);
+    for (LidarPoint& point : scan.points) point.offset_ns = 0;
+    run.add(scan);
+  }
+  run.wait_until(410'000'000);
+  const Motion steady = [](double t) { return Pose{exp_so3({0.0, 0.0, 0.2 * t}), {3.0 * t, 0.5 * t, 0.0}}; };
+  const Vector6d error = run.error(steady, 210'000'000, 410'000'000);
+  EXPECT_LT(error.tail<3>().norm(), 0.03);
+  EXPECT_LT(error.head<3>().norm(), 0.005);
+}
+
+TEST(Loam, OutlivesLostParts) {
+  const testing::BoxWorld room = testing::furnished_room();
+  const Motion motion = turning_walk(0.2, 0.05);
+  RandomStream noise(5, "lidar");
+  Run run(calibration_of(40, 1.0));
+  for (std::int64_t sweep = 0; sweep < 8; ++sweep) {
+    const auto parts = testing::turned_scanner_sweep(room, motion, sweep, 0.01, noise);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const bool lost = (sweep == 3 && i == 9) || (sweep == 4 && i < 3);
+      if (!lost) run.add(parts[i]);
+    }
+  }
+  run.wait_until(8'010'000'000);
+  EXPECT_LT(run.error(motion, 2'100'000'000, 8'010'000'000).tail<3>().norm(), 0.05);
+}
+
+TEST(SweepAssembler, JoinsPartsWithTheirOwnTimes) {
+  SweepAssembler assembler;
+  LidarScan part;
+  part.points.resize(2);
+  part.points[1].offset_ns = 70;
+  part.sweep = 5;
+  for (int i = 0; i < 3; ++i) {
+    part.stamp_ns = 1000 + 100 * i;
+    part.end_ns = part.stamp_ns + 100;
+    part.ends_sweep = i == 2;
+    const auto sweep = assembler.add(part);
+    ASSERT_EQ(sweep.has_value(), i == 2);
+    if (!sweep) continue;
+    EXPECT_EQ(sweep->stamp_ns, 1000);
+    EXPECT_EQ(sweep->end_ns, 1300);
+    ASSERT_EQ(sweep->points.size(), 6U);
+    EXPECT_EQ(sweep->points[5].offset_ns, 270);
+  }
+}
+
+TEST(SweepAssembler, LetsASweepGoWhoseEndNeverComes) {
+  SweepAssembler assembler;
+  LidarScan part;
+  part.points.resize(1);
+  part.ends_sweep = false;
+  part.end_ns = 100;
+  EXPECT_FALSE(assembler.add(part));
+  part.sweep = 1;
+  part.stamp_ns = 200;
+  part.end_ns = 300;
+  part.ends_sweep = true;
+  const auto sweep = assembler.add(part);
+  ASSERT_TRUE(sweep);
+  EXPECT_EQ(sweep->stamp_ns, 200);
+  EXPECT_EQ(sweep->points.size(), 1U);
+}
+
+}  // namespace
+}  // namespace plumbline

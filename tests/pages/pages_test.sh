@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# pages_test.sh PROGRAM: looks at the pages of a run, a sweep and a regression, which one small regression makes all of.
+set -eu
+
+here="$(cd "$(dirname "$0")" && pwd)"
+program="$1"
+scratch="$(mktemp -d)"
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch"
+
+cat >base.yaml <<'YAML'
+world: {scene: garage}
+motion: {rest_s: 0.5, smoothing_s: 0.5, waypoints: [[6, 4.75, 1.5], [7, 4.75, 1.5]]}
+YAML
+cat >suite.yaml <<'YAML'
+scenarios: {bright: base.yaml, dark: {scenario: base.yaml, set: {world.light.lux: 0.01}}}
+seeds: 3
+YAML
+for more in --update ""; do
+  "$program" regress suite.yaml --baseline baseline.json --out out $more >/dev/null
+done
+"$here/check_page.sh" out/regress.html out/report.html out/runs/0000/report.html
