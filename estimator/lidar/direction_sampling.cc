@@ -43,25 +43,25 @@ std::array<int, kBins> fill_evenly(const std::array<int, kBins>& wanted, int bud
 }  // namespace
 
 std::vector<std::uint32_t> sample_by_direction(const std::vector<FeaturePoint>& planes, int budget) {
-  std::vector<std::uint8_t> bins(planes.size());
-  std::array<int, kBins> wanted{};
-  for (std::size_t i = 0; i < planes.size(); ++i) {
-    bins[i] = static_cast<std::uint8_t>(direction_bin(planes[i].normal));
-    ++wanted[bins[i]];
-  }
+  // The k-th of n is taken where k * taken / n steps: evenly along the scan, that is over space.
+  const auto takes = [](int k, int taken, int n) { return (k + 1) * taken / n > k * taken / n; };
   const auto all = static_cast<int>(planes.size());
   const int anywhere = std::min(all, budget / 2);
+  std::vector<std::uint8_t> bins(planes.size());
+  std::vector<std::uint8_t> taken(planes.size());
+  std::array<int, kBins> wanted{};
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    taken[i] = takes(static_cast<int>(i), anywhere, all) ? 1 : 0;
+    bins[i] = static_cast<std::uint8_t>(direction_bin(planes[i].normal));
+    if (taken[i] == 0) ++wanted[bins[i]];
+  }
   const std::array<int, kBins> granted = fill_evenly(wanted, budget - anywhere);
   std::vector<std::uint32_t> picked;
   picked.reserve(static_cast<std::size_t>(budget));
   std::array<int, kBins> seen{};
   for (std::size_t i = 0; i < planes.size(); ++i) {
     const std::size_t bin = bins[i];
-    // The k-th of n is taken where k * granted / n steps: evenly along the scan, that is over space.
-    const auto takes = [](int k, int taken, int n) { return (k + 1) * taken / n > k * taken / n; };
-    if (takes(seen[bin]++, granted[bin], wanted[bin]) || takes(static_cast<int>(i), anywhere, all)) {
-      picked.push_back(static_cast<std::uint32_t>(i));
-    }
+    if (taken[i] != 0 || takes(seen[bin]++, granted[bin], wanted[bin])) picked.push_back(static_cast<std::uint32_t>(i));
   }
   return picked;
 }

@@ -41,6 +41,13 @@ void SteadyMotion::follow(const Pose& world_from_body, const Pose& earlier_from_
   velocity_in_body_ = exp_so3(-0.5 * duration_s * rate_) * chord;
 }
 
+Pose SteadyMotion::onwards(const Pose& from, double duration_s, const Pose& read) const {
+  if (!turns_) return {read.rotation, from.translation + duration_s * state_.velocity_in_world};
+  const Eigen::Quaterniond half = from.rotation * exp_so3(0.5 * duration_s * rate_);
+  return {(from.rotation * exp_so3(duration_s * rate_)).normalized(),
+          from.translation + duration_s * (half * velocity_in_body_)};
+}
+
 void SteadyMotion::move(const Pose& world_from_body) { state_.world_from_body = world_from_body; }
 
 Matrix6d SteadyMotion::motion_covariance(double duration_s) const {

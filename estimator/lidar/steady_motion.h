@@ -11,9 +11,11 @@ class SteadyMotion {
   SteadyMotion(const NavigationState& start, bool turns) : state_(start), turns_(turns) {}
 
   void predict(const InertialSegment& segment);
-  /// The pose at now is corrected, and the motion that led to it from an earlier pose goes on.
+  /// The pose is corrected, and the motion that led to it from an earlier pose goes on.
   void follow(const Pose& world_from_body, const Pose& earlier_from_body, double duration_s);
   void move(const Pose& world_from_body);
+  /// Where that motion leads from a pose. @param read  the pose then as predicted before: gives attitude that is read
+  Pose onwards(const Pose& world_from_body, double duration_s, const Pose& read) const;
 
   const NavigationState& state() const { return state_; }  ///< its velocity too
   /// Of a motion over a time: what rate and velocity may have changed since they were measured.

@@ -158,6 +158,12 @@ void Loam::redo_first_sweep() {
     motion_ = odometry_.solve(followed_ns_, {predicted_motion(followed_ns_), motion_covariance(followed_ns_)},
                               motion_.pose, effort());
   }
+  // The pose at the first sweep's end was given out long ago, and stays.
+  if (steady_) {
+    const Pose shift = track_.at(last_end_ns_) * corrected(track_.at(last_end_ns_), last_end_ns_).inverse();
+    steady_->move(shift * state().world_from_body);
+    track_.premultiply(shift);
+  }
   matcher_.insert(features, world_from_reference(), path_m_);
   last_position_ = world_from_reference().translation;
   first_.reset();
@@ -180,9 +186,19 @@ void Loam::match(const FeatureCloud& features, std::int64_t stamp_ns) {
 /// better than the difference of two sweeps does.
 void Loam::take_motion(std::int64_t now_ns) {
   if (!steady_) return;
-  const Pose moved = corrected(track_.at(now_ns), now_ns) * track_.at(now_ns).inverse();
-  steady_->follow(moved * state().world_from_body, motion_.pose, seconds_between(odometry_.reference_ns(), now_ns));
-  track_.premultiply(moved);
+  const Pose world_from_body = corrected(track_.at(now_ns), now_ns);
+  const Pose moved = world_from_body * track_.at(now_ns).inverse();
+  const std::int64_t state_ns = state().stamp_ns;
+  steady_->follow(world_from_body, motion_.pose, seconds_between(odometry_.reference_ns(), now_ns));
+  // A sweep arrives after its last return: what was predicted since then is predicted anew.
+  PoseTrack redone;
+  for (const PoseTrack::Stamped& at : track_.poses()) {
+    const Pose before = moved * at.pose;
+    const double since_s = seconds_between(now_ns, at.stamp_ns);
+    redone.push(at.stamp_ns, at.stamp_ns <= now_ns ? before : steady_->onwards(world_from_body, since_s, before));
+  }
+  track_ = std::move(redone);
+  steady_->move(track_.at(state_ns));
 }
 
 void Loam::take_pose(const SolveResult& solved, const Pose& predicted) {

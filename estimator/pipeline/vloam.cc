@@ -169,18 +169,18 @@ void Vloam::handle(const LidarScan& scan) {
 
 /// Matches a scan to the map; in the joint problem, with the rows of the newest image, whose body stood a little before
 /// the scan's end.
-SolveResult Vloam::match(const FeatureCloud& features, const Pose& predicted) {
-  const PosePrior prior{predicted, filter_->map_from_body_covariance()};
+SolveResult Vloam::match(const FeatureCloud& features, std::int64_t end_ns, const Pose& map_from_body) {
+  const PosePrior prior{map_from_body, filter_->map_from_body_covariance()};
   const auto image_ns = std::exchange(followed_ns_, std::nullopt);
   if (!image_ns || !track_.covers(*image_ns)) return matcher_.match(features, prior);
-  const Pose world_from_end = filter_->state().world_from_body;
+  const Pose world_from_end = track_.at(end_ns);
   const Pose end_from_image = world_from_end.inverse() * track_.at(*image_ns);
   const Matrix6d d_image_d_end = adjoint(end_from_image.inverse());
-  const Pose keyframe_from_map = filter_->world_from_keyframe().inverse() * world_from_end * predicted.inverse();
+  const Pose keyframe_from_map = filter_->world_from_keyframe().inverse() * world_from_end * map_from_body.inverse();
   int image_features = 0;
-  const SolveResult solved = matcher_.match(features, prior, [&](const Pose& map_from_body, ResidualRows& rows) {
+  const SolveResult solved = matcher_.match(features, prior, [&](const Pose& pose, ResidualRows& rows) {
     ResidualRows of_image;
-    vision_.linearize(keyframe_from_map * map_from_body * end_from_image, of_image);
+    vision_.linearize(keyframe_from_map * pose * end_from_image, of_image);
     image_features = of_image.feature_count();
     rows.append(of_image, d_image_d_end);
   });
@@ -195,7 +195,7 @@ void Vloam::refine_with_scan(const LidarScan& scan, const std::vector<Eigen::Vec
   const FeatureCloud features = extract_features(scan, points_in_body, calibration_);
   const Pose predicted = filter_->map_from_body();
   const std::optional<std::int64_t> image_ns = followed_ns_;
-  const SolveResult solved = match(features, predicted);
+  const SolveResult solved = match(features, scan.end_ns, predicted);
   correct([&] { filter_->update_pose(solved, predicted, kLidarInflation); });
   if (image_ns) start_keyframe_when_due(*image_ns);
   const Pose world_from_body = track_.at(scan.end_ns);

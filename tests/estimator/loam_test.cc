@@ -27,9 +27,9 @@ Calibration calibration_of(int rings, double sweep_rate_hz) {
 }
 
 /// An estimator without an IMU, its clock, and what it put out.
-class Run {
+class LoamRun {
  public:
-  explicit Run(const Calibration& calibration, EstimatorConfig config = {}) {
+  explicit LoamRun(const Calibration& calibration, EstimatorConfig config = {}) {
     config.imu_enabled = false;
     estimator_ = make_estimator("loam", calibration, config);
   }
@@ -67,7 +67,7 @@ TEST(Loam, FollowsATurnedScannerWithoutAnImu) {
   const testing::BoxWorld room = testing::furnished_room();
   const Motion motion = turning_walk(0.4, 0.1);
   RandomStream noise(1, "lidar");
-  Run run(calibration_of(40, 1.0));
+  LoamRun run(calibration_of(40, 1.0));
   for (std::int64_t sweep = 0; sweep < 6; ++sweep) {
     for (const LidarScan& part : testing::turned_scanner_sweep(room, motion, sweep, 0.01, noise)) run.add(part);
   }
@@ -83,7 +83,7 @@ TEST(Loam, GivesTheMotionWithinASweep) {
   const testing::BoxWorld room = testing::furnished_room();
   const Motion motion = turning_walk(0.4, 0.1);
   RandomStream noise(2, "lidar");
-  Run run(calibration_of(40, 1.0));
+  LoamRun run(calibration_of(40, 1.0));
   for (std::int64_t sweep = 0; sweep < 4; ++sweep) {
     for (const LidarScan& part : testing::turned_scanner_sweep(room, motion, sweep, 0.01, noise)) run.add(part);
   }
@@ -99,7 +99,7 @@ TEST(Loam, DoesNotRingFromSweepToSweep) {
     return Pose{exp_so3({0.0, 0.02 * std::sin(3.0 * t), 0.0}), {8.0 * t + 0.75 * t * t, 0.0, 0.5}};
   };
   RandomStream noise(3, "lidar");
-  Run run(calibration_of(16, 10.0));
+  LoamRun run(calibration_of(16, 10.0));
   for (std::int64_t k = 0; k < 20; ++k) run.add(testing::vlp16_scan(hall, motion, k * 100'000'000, {}, 0.012, noise));
   run.wait_until(2'010'000'000);
   // Each step's error stays that of one match; a ringing end pose is off by decimetres, up and down by turns.
@@ -112,7 +112,7 @@ TEST(Loam, DoesNotRingFromSweepToSweep) {
 TEST(Loam, TakesSweepsWhoseReturnsBearOneTime) {
   const testing::BoxWorld room = testing::furnished_room();
   RandomStream noise(4, "lidar");
-  Run run(calibration_of(16, 10.0));
+  LoamRun run(calibration_of(16, 10.0));
   for (std::int64_t k = 0; k < 4; ++k) {
     const Motion rest = [k](double) {
       return Pose{exp_so3({0.0, 0.0, 0.02 * static_cast<double>(k)}),
@@ -133,7 +133,7 @@ TEST(Loam, OutlivesLostParts) {
   const testing::BoxWorld room = testing::furnished_room();
   const Motion motion = turning_walk(0.2, 0.05);
   RandomStream noise(5, "lidar");
-  Run run(calibration_of(40, 1.0));
+  LoamRun run(calibration_of(40, 1.0));
   for (std::int64_t sweep = 0; sweep < 8; ++sweep) {
     const auto parts = testing::turned_scanner_sweep(room, motion, sweep, 0.01, noise);
     for (std::size_t i = 0; i < parts.size(); ++i) {

@@ -54,6 +54,8 @@ TEST(ShippedScenarios, LoadAndSayWhatTheyExpect) {
   for (const auto& path : shipped_scenarios()) {
     SCOPED_TRACE(path.filename());
     const Scenario scenario = load_scenario(path, {}, {});
+    // The parts of suites are judged against a baseline.
+    if (path.parent_path().filename() == "parts") continue;
     EXPECT_FALSE(scenario.expect.empty());
     EXPECT_EQ(scenario.expect_status, "ok");
   }

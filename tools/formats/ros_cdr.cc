@@ -63,6 +63,7 @@ RosPayload read_imu(Cdr& cdr) {
   sample.angular_rate = read_vector(cdr);
   cdr >> covariance;
   sample.specific_force = read_vector(cdr);
+  cdr >> covariance;
   return sample;
 }
 

@@ -140,10 +140,12 @@ class BagWriter final : public DatasetWriter {
  public:
   explicit BagWriter(std::unique_ptr<RosSink> sink) : sink_(std::move(sink)) {}
 
+  /// Bags keep the order of recording by time alone: messages of one time are recorded a nanosecond apart.
   void write(const SensorMessage& message) override {
+    recorded_ns_ = std::max(message.delivery_ns, recorded_ns_ + 1);
     std::visit(
         [&](const auto& payload) {
-          sink_->write({topic_of(payload), message.delivery_ns, ros(payload)});
+          sink_->write({topic_of(payload), recorded_ns_, ros(payload)});
         },
         message.payload);
   }
@@ -168,6 +170,7 @@ class BagWriter final : public DatasetWriter {
 
   RosTopics topics_;
   std::unique_ptr<RosSink> sink_;
+  std::int64_t recorded_ns_ = 0;
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "tools/recordings/corner_tracks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "estimator/pipeline/vloam.h"
@@ -101,11 +102,14 @@ CornerFrame read_corners(const NumberedFile& file, int camera) {
   return frame;
 }
 
-std::vector<ImuSample> read_samples(const fs::path& path) {
+/// EuRoC's IMU stamps the moment of a reading. Taken for the mean over an interval, as ImuSample is, that interval ends
+/// half a period later; left out, this turns the estimate by 11 degrees within 20 s of fast motion.
+std::vector<ImuSample> read_samples(const fs::path& path, double rate_hz) {
+  const std::int64_t half_period_ns = std::llround(0.5e9 / rate_hz);
   std::vector<ImuSample> samples;
   TextTable table(path, kSeparators);
   while (table.next()) {
-    samples.push_back({table.whole(0),
+    samples.push_back({table.whole(0) + half_period_ns,
                        {table.number(1), table.number(2), table.number(3)},
                        {table.number(4), table.number(5), table.number(6)}});
   }
@@ -152,7 +156,7 @@ CheckRows check_corner_tracks(const fs::path& folder) {
   EstimatorConfig config;
   config.lidar_enabled = false;
   Vloam estimator(calibration, config);
-  const StampedPoses estimate = drive(estimator, read_samples(folder / "imu0.csv"), frames);
+  const StampedPoses estimate = drive(estimator, read_samples(folder / "imu0.csv", calibration.imu_rate_hz), frames);
   const TrajectoryFigures figures = trajectory_figures(truth, estimate);
   const auto shown = [](const std::optional<double>& value) { return value ? readable_text(*value) : "–"; };
   const std::string worst = shown(figures.max_error_m);

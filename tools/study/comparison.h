@@ -61,7 +61,8 @@ std::vector<std::string> scenarios_of(const std::vector<RunPair>& pairs);
 /// The probability that any test at all fails where nothing has changed, at most; shared out by the figures' weights.
 constexpr double kFalseAlarmRate = 0.004;
 
-/// @param before, after  by scenario and seed; runs that only one of them has are left out
+/// @param before, after  by scenario and seed; they must outlive the result, which points at them. Runs that only one
+/// of them has are left out
 /// @param same_machine   otherwise the machine's figures are only shown
 Comparison compare_runs(const std::vector<MeasuredRun>& before, const std::vector<MeasuredRun>& after,
                         const Effects& effects, bool same_machine);

@@ -10,7 +10,7 @@
 namespace plumbline {
 namespace {
 
-constexpr int kResamples = 50'000;
+constexpr int kResamples = 20'000;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Moments {

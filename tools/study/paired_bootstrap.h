@@ -22,7 +22,7 @@ struct PairedMean {
 };
 
 /// Studentized bootstrap, stratified by scenario, the run being the unit that is drawn: what happens within a run is
-/// not independent. 50,000 resamples, drawn from a stream of that name; so no p is below 2e-5.
+/// not independent. 20,000 resamples, drawn from a stream of that name; so no p is below 5e-5.
 /// Source: Efron and Tibshirani, An Introduction to the Bootstrap (1993), section 12.5.
 /// @param strata  those with fewer than two differences tell nothing of their spread and are left out
 PairedMean paired_bootstrap(const PairedStrata& strata, std::string_view stream);

@@ -35,7 +35,7 @@ const std::vector<RegressFigure>& regress_figures() {
   // once, which no number of runs shows.
   static const std::vector<RegressFigure> figures{
       {"relative_error", "1 s relative error", "mm", 4.0, 8.0, true, false, relative_error},
-      {"drift", "End-point drift", "%", 40.0, 2.0, true, false, drift},
+      {"drift", "End-point drift", "%", 40.0, 4.0, true, false, drift},
       {"progress", "Progress error", "%", 60.0, 1.0, false, false, progress_error},
       {"time", "Estimator time", "× simulation's", 35.0, 1.0, false, true,
        [](const MeasuredRun& run) { return positive(run.estimator_time_ratio.value_or(0.0)); }},

@@ -11,7 +11,7 @@
 namespace plumbline {
 namespace {
 
-constexpr RunLimits kCommandLimits{120.0, 4096.0};
+constexpr RunLimits kCommandLimits{600.0, 4096.0};
 constexpr int kAttempts = 30;
 constexpr std::chrono::seconds kBetweenAttempts{10};
 
@@ -28,6 +28,7 @@ bool succeeded(const ChildEnd& end) { return end.kind == ChildEnd::Kind::kExited
 [[noreturn]] void fail(const std::string& command, const ChildEnd& end) {
   std::string said = end.output;
   while (said.ends_with('\n')) said.pop_back();
+  if (end.kind == ChildEnd::Kind::kTimeLimit) said += " (no answer within ten minutes)";
   throw InputError("--launcher slurm: " + command + " failed: " + (said.empty() ? "it says nothing" : said));
 }
 

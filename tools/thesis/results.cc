@@ -113,7 +113,8 @@ std::vector<RowResult> read_results(const std::filesystem::path& path) {
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   std::vector<RowResult> rows;
   try {
-    for (const ordered_json& row : ordered_json::parse(text).at("rows")) rows.push_back(row_of(row));
+    const ordered_json results = ordered_json::parse(text);
+    for (const ordered_json& row : results.at("rows")) rows.push_back(row_of(row));
   } catch (const nlohmann::json::exception& error) {
     throw InputError(path.string() + ": found no results of the thesis suite (" + error.what() +
                      "), expected what it wrote itself");

@@ -50,9 +50,9 @@ TEST_F(OutsideExamples, TakePartInASweepLikeOurOwn) {
   const auto library = read_tum(directory_.path() / "sweep/runs/0000/estimate.tum");
   const auto truth = read_tum(directory_.path() / "sweep/runs/0000/ground_truth.tum");
   ASSERT_EQ(library.size(), truth.size());
-  // A metre in three seconds by a consumer's IMU whose accelerometer bias nobody estimates.
+  // Three sigma of the accelerometer's turn-on bias, 0.6 m/s^2, which nobody estimates, over three seconds.
   const Eigen::Vector3d moved = truth.back().pose.translation - truth.front().pose.translation;
-  EXPECT_NEAR(library.back().pose.translation.norm(), moved.norm(), 1.0);
+  EXPECT_NEAR(library.back().pose.translation.norm(), moved.norm(), 2.7);
   EXPECT_GT(library.back().pose.translation.norm(), 0.1);
   for (const std::string run : {"0002", "0003"}) {
     const auto other = read_tum(directory_.path() / "sweep/runs" / run / "estimate.tum");

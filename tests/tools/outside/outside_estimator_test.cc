@@ -99,7 +99,7 @@ class OutsideEstimatorTest : public ::testing::Test {
     RunRecord record;
     {
       const auto estimator = make_outside_estimator(command, Calibration{});
-      Recorder recorder(*estimator, 5'000'000);
+      Recorder recorder(*estimator, 0, 5'000'000);
       for (int i = 1; i <= 5 && !recorder.faulted(); ++i) {
         recorder.deliver(ImuSample{i * 5'000'000, {}, {0.0, 0.0, 9.81}});
         const auto pixels = static_cast<std::size_t>(image_side) * static_cast<std::size_t>(image_side);

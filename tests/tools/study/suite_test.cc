@@ -30,7 +30,7 @@ class SuiteTest : public ::testing::Test {
 constexpr const char* kSuite = R"(
 scenarios:
   bright: base.yaml
-  blind: {scenario: base.yaml, set: {world.light.lux: 0}}
+  blind: {scenario: base.yaml, set: {world.light.lux: 0.01}}
 set: {motion.rest_s: 1}
 seeds: 3
 effects_percent: {drift: 70}
@@ -45,7 +45,7 @@ TEST_F(SuiteTest, EveryScenarioRunsOverEverySeed) {
   EXPECT_EQ(plan.runs[5].key, "0005");
   EXPECT_TRUE(is_suite_plan(plan_of_json(plan_json(plan))));
   const auto command = suite_run(suite, "vio", "plumbline")(plan.runs[0], "out");
-  EXPECT_THAT(command, ::testing::IsSupersetOf({"motion.rest_s=1", "world.light.lux=0", "--estimator", "vio"}));
+  EXPECT_THAT(command, ::testing::IsSupersetOf({"motion.rest_s=1", "world.light.lux=0.01", "--estimator", "vio"}));
 }
 
 TEST_F(SuiteTest, TheDigestIsTheScenariosAndSeeds) {
