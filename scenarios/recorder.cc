@@ -1,5 +1,6 @@
 #include "scenarios/recorder.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <exception>
@@ -78,11 +79,19 @@ void Recorder::take() {
   guarded([&] { outputs = estimator_.take(); });
   for (auto& output : outputs) {
     record_.health.insert(record_.health.end(), output.health.begin(), output.health.end());
+    tell_of_image(output.health);
     output.health.clear();
     record_.estimate.push_back({output.stamp_ns, output.world_from_body});
     record_.estimator_lost = output.lost;
     record_.odometry.push_back(std::move(output));
   }
+}
+
+void Recorder::tell_of_image(const std::vector<ModuleHealth>& health) {
+  const auto last = std::find_if(health.rbegin(), health.rend(),
+                                 [](const ModuleHealth& row) { return row.module == Module::kVision; });
+  if (!on_image_ || last == health.rend()) return;
+  guarded([&] { on_image_(last->stamp_ns, estimator_.features()); });
 }
 
 void Recorder::take_snapshot(const CameraFrame& frame) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <utility>
 
 #include "scenarios/run_record.h"
 #include "scenarios/sensor_message.h"
@@ -12,9 +14,12 @@ namespace plumbline {
 /// threw becomes the record's fault.
 class Recorder {
  public:
+  /// Told what was tracked in the image that vision worked on last.
+  using ImageListener = std::function<void(std::int64_t stamp_ns, const std::vector<TrackedFeature>&)>;
+
   /// The estimator must outlive the recorder. @param start_ns, end_ns  the run's span
-  Recorder(Estimator& estimator, std::int64_t start_ns, std::int64_t end_ns)
-      : estimator_(estimator), start_ns_(start_ns), end_ns_(end_ns) {}
+  Recorder(Estimator& estimator, std::int64_t start_ns, std::int64_t end_ns, ImageListener on_image = {})
+      : estimator_(estimator), start_ns_(start_ns), end_ns_(end_ns), on_image_(std::move(on_image)) {}
 
   /// Hands a message over, or counts it if it was lost on the way.
   void deliver(const SensorMessage& message);
@@ -36,6 +41,7 @@ class Recorder {
   void add(Module module, std::int64_t stamp_ns, const Message& message);
   void lose(Module module, const std::string& reason);
   void take();
+  void tell_of_image(const std::vector<ModuleHealth>& health);
   void take_snapshot(const CameraFrame& frame);
   /// Calls the estimator; returns the wall time [s].
   template <typename Call>
@@ -44,6 +50,7 @@ class Recorder {
   Estimator& estimator_;
   std::int64_t start_ns_ = 0;
   std::int64_t end_ns_ = 0;
+  ImageListener on_image_;
   RunRecord record_;
 };
 

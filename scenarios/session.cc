@@ -12,7 +12,6 @@
 #include "scenarios/sensor_stream.h"
 #include "sim/glare.h"
 #include "sim/rig_driver.h"
-#include "sim/surroundings.h"
 #include "sim/vehicles/vehicle.h"
 
 namespace plumbline {
@@ -97,17 +96,6 @@ bool run(const Scenario& scenario, const Surroundings& surroundings, const Traje
   return run(scenario, world_from_body, source, options, listener);
 }
 
-/// The vehicle as its sensors see it, or nothing.
-std::unique_ptr<OwnBody> own_body_of(const Scenario& scenario) {
-  if (!scenario.rig.own_body || scenario.motion.vehicle.empty()) return nullptr;
-  const VehicleInfo& vehicle = vehicle_named(scenario.motion.vehicle);
-  if (vehicle.body == nullptr) return nullptr;
-  World world = World::from_scene(vehicle.body(), scenario.seed);
-  RayScene rays(world);
-  return std::make_unique<OwnBody>(
-      OwnBody{std::move(world), std::move(rays), scenario.rig.vehicle_from_pack.inverse()});
-}
-
 }  // namespace
 
 World make_world(const Scenario& scenario) {
@@ -127,6 +115,16 @@ Trajectory make_body_trajectory(const Scenario& scenario, const World& world, co
   });
 }
 
+std::unique_ptr<OwnBody> make_own_body(const Scenario& scenario) {
+  if (!scenario.rig.own_body || scenario.motion.vehicle.empty()) return nullptr;
+  const VehicleInfo& vehicle = vehicle_named(scenario.motion.vehicle);
+  if (vehicle.body == nullptr) return nullptr;
+  World world = World::from_scene(vehicle.body(), scenario.seed);
+  RayScene rays(world);
+  return std::make_unique<OwnBody>(
+      OwnBody{std::move(world), std::move(rays), scenario.rig.vehicle_from_pack.inverse()});
+}
+
 RunRecord run_session(const Scenario& scenario, const World& world, const RayScene& rays,
                       const SessionOptions& options) {
   const auto estimator = as_input(scenario, [&] {
@@ -138,8 +136,8 @@ RunRecord run_session(const Scenario& scenario, const World& world, const RaySce
 RunRecord run_session(const Scenario& scenario, const World& world, const RayScene& rays, const SessionOptions& options,
                       Estimator& estimator) {
   const Trajectory world_from_body = make_body_trajectory(scenario, world, rays);
-  Recorder recorder(estimator, 0, world_from_body.end_ns());
-  const std::unique_ptr<OwnBody> own_body = own_body_of(scenario);
+  Recorder recorder(estimator, 0, world_from_body.end_ns(), options.on_image);
+  const std::unique_ptr<OwnBody> own_body = make_own_body(scenario);
   const Surroundings surroundings{world, rays, own_body.get()};
   const bool whole = run(scenario, surroundings, world_from_body, options,
                          {[&](std::int64_t stamp_ns, const Pose& pose) { recorder.add_truth(stamp_ns, pose); },
@@ -156,7 +154,7 @@ RunRecord run_session(const Scenario& scenario, const World& world, const RaySce
 bool simulate(const Scenario& scenario, const World& world, const RayScene& rays, const SessionOptions& options,
               const SessionListener& listener) {
   const Trajectory world_from_body = make_body_trajectory(scenario, world, rays);
-  const std::unique_ptr<OwnBody> own_body = own_body_of(scenario);
+  const std::unique_ptr<OwnBody> own_body = make_own_body(scenario);
   return run(scenario, Surroundings{world, rays, own_body.get()}, world_from_body, options, listener);
 }
 

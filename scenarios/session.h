@@ -1,11 +1,13 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "scenarios/recording.h"
 #include "scenarios/run_record.h"
 #include "scenarios/scenario.h"
 #include "sim/ray_scene.h"
+#include "sim/surroundings.h"
 #include "sim/trajectory.h"
 
 namespace plumbline {
@@ -15,6 +17,8 @@ struct SessionOptions {
   /// Called now and then with the simulated share done, [0, 1]; false ends the run there, its record so far kept and
   /// marked as interrupted.
   std::function<bool(double)> progress;
+  /// Called with what was tracked in each image that vision worked on.
+  std::function<void(std::int64_t stamp_ns, const std::vector<TrackedFeature>&)> on_image;
 };
 
 /// The world of a scenario, light level set. @throws InputError
@@ -22,6 +26,9 @@ World make_world(const Scenario& scenario);
 
 /// The body's exact motion in a scenario, stamps counted from 0. @throws InputError
 Trajectory make_body_trajectory(const Scenario& scenario, const World& world, const RayScene& rays);
+
+/// The vehicle as its sensors see it; nullptr where there is none, or it is left out.
+std::unique_ptr<OwnBody> make_own_body(const Scenario& scenario);
 
 /// Who is told of a session as it goes on: of the truth, which is always ahead of the messages, and of each message in
 /// order of arrival, the lost ones included; the latter gives false to end the session there.

@@ -20,12 +20,14 @@ int run_program(int argc, char** argv) {
   app.set_version_flag("--version", kVersion);
   app.require_subcommand(1);
   Action chosen;
+  add_calibrate_command(app, chosen);
   add_run_command(app, chosen);
   add_evaluate_command(app, chosen);
   add_host_command(app, chosen);
   add_export_command(app, chosen);
   add_list_command(app, chosen);
   add_merge_command(app, chosen);
+  add_mount_command(app, chosen);
   add_replay_command(app, chosen);
   add_regress_command(app, chosen);
   add_report_command(app, chosen);

@@ -109,6 +109,7 @@ struct ScanMatcher::Impl {
   MatchDrift drift;
   VoxelMap edges;
   VoxelMap planes;
+  std::vector<MatchRow> rows;  ///< of the last match
 };
 
 namespace {
@@ -133,6 +134,25 @@ class MapConstraints {
     for (const PlaneMatch& m : plane_matches_) add_plane_row(m.point_in_body, m.plane, world_from_body, sigma_m_, rows);
     for (const LineMatch& m : line_matches_) add_line_rows(m.point_in_body, m.line, world_from_body, m.sigma_m, rows);
   }
+
+  /// The rows that linearize() stacked last, not yet weighted: one per plane, then two per line.
+  std::vector<MatchRow> match_rows(const Pose& world_from_body) const {
+    const Eigen::Quaterniond body_from_world = world_from_body.rotation.conjugate();
+    std::vector<MatchRow> rows;
+    rows.reserve(plane_matches_.size() + 2 * line_matches_.size());
+    for (const PlaneMatch& m : plane_matches_) {
+      const double distance_m = m.plane.normal.dot(world_from_body * m.point_in_body) - m.plane.offset;
+      rows.push_back({m.point_in_body, body_from_world * m.plane.normal, distance_m, sigma_m_, 1.0});
+    }
+    for (const LineMatch& m : line_matches_) {
+      const Eigen::Vector3d off = world_from_body * m.point_in_body - m.line.point;
+      for (const Eigen::Vector3d& across : {m.line.across_1, m.line.across_2}) {
+        rows.push_back({m.point_in_body, body_from_world * across, across.dot(off), m.sigma_m, 1.0});
+      }
+    }
+    return rows;
+  }
+  std::size_t plane_count() const { return plane_matches_.size(); }
 
   /// To first order: J^T of the rows times their change per metre of motion and bias, summed over each ring, since all
   /// of a ring err alike, and over all.
@@ -240,13 +260,23 @@ SolveResult ScanMatcher::match(const FeatureCloud& features, const PosePrior& wo
   m.edges.prepare(in_world(used.edges, world_from_body.mean));
   m.planes.prepare(in_world(used.planes, world_from_body.mean));
   MapConstraints constraints(m.edges, m.planes, m.edge_limits, m.plane_limits, m.sigma_m, used);
+  m.rows.clear();
+  std::size_t planes = 0;
   const SolveResult solved = solve(
       world_from_body.mean, world_from_body,
       [&](const Pose& pose, ResidualRows& rows) {
         constraints.linearize(pose, rows);
+        if (m.rows.empty()) {
+          m.rows = constraints.match_rows(pose);
+          planes = constraints.plane_count();
+        }
         if (further_rows) further_rows(pose, rows);
       },
       m.options);
+  for (std::size_t i = 0; i < m.rows.size(); ++i) {
+    const std::size_t feature = i < planes ? i : planes + (i - planes) / 2;
+    m.rows[i].weight = feature < solved.weights_at_guess.size() ? solved.weights_at_guess[feature] : 0.0;
+  }
   m.drift = constraints.drift(solved, m.body_from_lidar.translation, m.bias_sigma_m);
   return solved;
 }
@@ -263,6 +293,8 @@ Matrix6d MatchDrift::covariance(const Eigen::Vector3d& step_in_body) const {
   }
   return sum;
 }
+
+const std::vector<MatchRow>& ScanMatcher::rows() const { return impl_->rows; }
 
 void ScanMatcher::insert(const FeatureCloud& features, const Pose& world_from_body, double path_m) {
   Impl& m = *impl_;

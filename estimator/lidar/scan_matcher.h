@@ -5,6 +5,7 @@
 
 #include "estimator/estimator.h"
 #include "estimator/lidar/features.h"
+#include "estimator/solver/detectors.h"
 #include "estimator/solver/robust_solver.h"
 
 namespace plumbline {
@@ -51,6 +52,9 @@ class ScanMatcher {
   /// @param further_rows  of other sensors that take part in the same problem, after the scan's own; empty: none
   SolveResult match(const FeatureCloud& features_in_body, const PosePrior& world_from_body,
                     const Linearizer& further_rows = {});
+
+  /// The rows of the last match as they were at its guess, with their robust weights: what detectors of degeneracy see.
+  const std::vector<MatchRow>& rows() const;
 
   /// Of the last match.
   const MatchDrift& drift() const;

@@ -188,6 +188,7 @@ class RobustSolve {
 
   void analyse_data() {
     result_.spectrum = analyse(data_.information, options_.degeneracy_threshold);
+    result_.weights_at_guess = result_.weights;
     // Forced 6-DOF trusts all six directions as long as there is anything to solve them from.
     if (!options_.remapping && data_.information.allFinite()) result_.spectrum.well_conditioned = 6;
   }

@@ -65,9 +65,10 @@ struct SolveResult {
   Matrix6d information = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
   int features = 0;
-  int inliers = 0;              ///< with a weight above zero
-  std::vector<double> weights;  ///< per feature, in [0, 1]
-  double scale = 0.0;           ///< MAD of the whitened residuals, floored
+  int inliers = 0;                       ///< with a weight above zero
+  std::vector<double> weights;           ///< per feature, in [0, 1]
+  std::vector<double> weights_at_guess;  ///< the same where the spectrum was found
+  double scale = 0.0;                    ///< MAD of the whitened residuals, floored
   int iterations = 0;
   bool converged = false;
 };

@@ -6,11 +6,13 @@
 #include <memory>
 #include <opencv2/core/utility.hpp>
 
+#include "scenarios/degeneracy_lab.h"
 #include "scenarios/session.h"
 #include "tools/commands/command.h"
 #include "tools/commands/shared_options.h"
 #include "tools/exit_code.h"
 #include "tools/interrupt.h"
+#include "tools/lab/lab_table.h"
 #include "tools/output/run_files.h"
 #include "tools/output/summary.h"
 #include "tools/outside/open_estimator.h"
@@ -31,7 +33,9 @@ std::filesystem::path output_of(const RunArguments& arguments, const Scenario& s
 }
 
 /// A fault of ours ends the run, not its record: the directory says what happened.
-RunRecord simulate(const Scenario& scenario, const World& world, const RayScene& rays, int threads) {
+/// @param images  gets what was tracked in each, if it is not null
+RunRecord simulate(const Scenario& scenario, const World& world, const RayScene& rays, int threads,
+                   std::vector<TrackedImage>* images) {
   ProgressLine line(scenario.name);
   SessionOptions options;
   options.threads = threads;
@@ -39,6 +43,12 @@ RunRecord simulate(const Scenario& scenario, const World& world, const RayScene&
     line.update(share);
     return !interrupted();
   };
+  if (images != nullptr) {
+    options.on_image = [images](std::int64_t stamp_ns, const std::vector<TrackedFeature>& features) {
+      images->push_back({stamp_ns, {}});
+      for (const TrackedFeature& feature : features) images->back().pixels.push_back(feature.pixel);
+    };
+  }
   try {
     const auto estimator = open_estimator(scenario);
     return run_session(scenario, world, rays, options, *estimator);
@@ -49,6 +59,18 @@ RunRecord simulate(const Scenario& scenario, const World& world, const RayScene&
     record.fault = error.what();
     return record;
   }
+}
+
+void judge_detectors(const Scenario& scenario, const World& world, const RayScene& rays,
+                     const std::vector<TrackedImage>& images, const RunDirectory& directory) {
+  ProgressLine line(scenario.name + ", detectors");
+  const LabRun lab = run_degeneracy_lab(scenario, world, rays, [&](double share) {
+    line.update(share);
+    return !interrupted();
+  });
+  directory.write("detectors.csv", lab_csv(lab.scans));
+  directory.write("mitigations.csv", mitigations_csv(lab));
+  directory.write("truth_degeneracy.csv", truth_csv(lab.scans, label_images(scenario, world, rays, images)));
 }
 
 int exit_code_of(const Verdict& verdict) { return interrupted() ? kExitInterrupted : verdict.exit_code(); }
@@ -67,7 +89,9 @@ int run_scenario(const RunArguments& arguments) {
   cv::setNumThreads(1);
   directory.open();
   catch_interrupts();
-  const RunRecord record = simulate(scenario, world, rays, threads);
+  std::vector<TrackedImage> images;
+  const RunRecord record = simulate(scenario, world, rays, threads, arguments.detectors ? &images : nullptr);
+  if (arguments.detectors && !interrupted()) judge_detectors(scenario, world, rays, images, directory);
   const JudgedRun run = write_run(
       directory, scenario, record,
       [&](const Eigen::Vector3d& point) { return rays.distance_to_surface(point, kMapErrorLimit); },
@@ -89,6 +113,8 @@ void add_run_command(CLI::App& app, Action& chosen) {
   run->add_option("--seed", arguments->seed, "instead of the scenario's")->check(whole_number());
   run->add_option("--estimator", arguments->estimator, "instead of the scenario's; see `plumbline list estimators`");
   run->add_option("--out", arguments->out, "directory for the results; out/NAME-SEED by default");
+  run->add_flag("--detectors", arguments->detectors,
+                "also judge detectors of degeneracy against the exact information, in detectors.csv");
   add_threads_option(*run, arguments->threads);
   run->callback([arguments, &chosen] { chosen = [arguments] { return run_scenario(*arguments); }; });
 }

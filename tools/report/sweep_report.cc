@@ -71,17 +71,18 @@ std::string charts_html(const SweepView& view, std::vector<Drawing>& all) {
 
 }  // namespace
 
-SweepReport sweep_report(const SweepPlan& plan, const std::vector<RunRow>& rows) {
+SweepReport sweep_report(const SweepPlan& plan, const std::vector<RunRow>& rows, const LabFindings& lab) {
   const SweepView view(plan, rows);
   SweepReport report;
   std::string boundary = chart_section(
       "Boundary", "The value at which success and failure are equally likely, from runs chosen where each tells most.",
       boundary_charts(view), report.charts);
   if (!boundary.empty()) boundary += boundary_table(plan, rows);
+  const std::string detectors = lab_section(lab, report.charts);
   const std::string charts = charts_html(view, report.charts);
   report.html = page_html(
       plan.name,
-      title_block(plan) + tiles(view) + boundary +
+      title_block(plan) + tiles(view) + boundary + detectors +
           heading("Estimators",
                   "Intervals are 95 %. Compared pairwise: over the runs that both made with the same settings and "
                   "seed, the "

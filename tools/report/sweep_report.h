@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/lab/lab_report.h"
 #include "tools/report/drawing.h"
 #include "tools/study/run_rows.h"
 
@@ -15,6 +16,7 @@ struct SweepReport {
 };
 
 /// @param rows  those that have ended, by key
-SweepReport sweep_report(const SweepPlan& plan, const std::vector<RunRow>& rows);
+/// @param lab  of a plan with detectors
+SweepReport sweep_report(const SweepPlan& plan, const std::vector<RunRow>& rows, const LabFindings& lab = {});
 
 }  // namespace plumbline

@@ -28,10 +28,11 @@ void read_seeds(ConfigReader& reader, std::vector<std::uint64_t>& seeds) {
   seeds.assign(distinct.begin(), distinct.end());
 }
 
-void read_limits(ConfigReader& reader, RunLimits& limits) {
+void read_limits(ConfigReader& reader, RunLimits& limits, const std::function<void(ConfigReader&)>& further) {
   reader.section("limits", [&](ConfigReader& section) {
     section.read("time_s", limits.time_s, kTime_s);
     section.read("memory_mb", limits.memory_mb, kMemory_mb);
+    if (further) further(section);
   });
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,8 @@ struct RunLimits {
 /// seeds: [N, ...] or a count (1 ... N). @param seeds  ascending
 void read_seeds(ConfigReader& reader, std::vector<std::uint64_t>& seeds);
 /// limits: {time_s, memory_mb}
-void read_limits(ConfigReader& reader, RunLimits& limits);
+/// @param further  reads what else may stand there
+void read_limits(ConfigReader& reader, RunLimits& limits, const std::function<void(ConfigReader&)>& further = {});
 /// set: {KEY: VALUE}, appended as KEY=VALUE
 void read_fixed(ConfigReader& reader, std::vector<std::string>& fixed);
 

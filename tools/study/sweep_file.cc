@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "scenarios/config_reader.h"
+#include "estimator/solver/detectors.h"
 #include "scenarios/yaml_reader.h"
 #include "tools/formats/number_text.h"
 #include "tools/study/sampling.h"
@@ -96,8 +96,7 @@ void read_range(const ConfigNode& node, const std::string& path, bool sampled, S
   axis.values = has_count ? spread(bounds, axis.logarithmic, count) : stepped(node, path + ".step", bounds, step);
 }
 
-SweepAxis read_axis(const std::string& key, const ConfigNode& node, bool sampled) {
-  const std::string path = "axes." + key;
+SweepAxis read_axis(const std::string& path, const std::string& key, const ConfigNode& node, bool sampled) {
   if (key == "seed") fail_at(node, path, "seeds under `seeds`");
   if (key == "estimator.name") fail_at(node, path, "estimators under `estimators`");
   SweepAxis axis;
@@ -112,17 +111,18 @@ SweepAxis read_axis(const std::string& key, const ConfigNode& node, bool sampled
   return axis;
 }
 
-void read_axes(ConfigReader& reader, SweepFile& sweep) {
-  const ConfigNode* axes = reader.find("axes");
+void read_axes(ConfigReader& reader, const std::string& name, SweepFile& sweep) {
+  const ConfigNode* axes = reader.find(name);
   if (axes == nullptr) return;
-  if (!axes->is_map() || axes->entries.empty()) fail_at(*axes, "axes", "at least one KEY: values");
-  for (const auto& [key, node] : axes->entries) sweep.axes.push_back(read_axis(key, node, sweep.sample.has_value()));
+  if (!axes->is_map() || axes->entries.empty()) fail_at(*axes, name, "at least one KEY: values");
+  for (const auto& [key, node] : axes->entries)
+    sweep.axes.push_back(read_axis(name + "." + key, key, node, sweep.sample.has_value()));
   const auto is_sampled = [](const SweepAxis& axis) { return axis.is_sampled(); };
   const auto sampled = std::count_if(sweep.axes.begin(), sweep.axes.end(), is_sampled);
-  if (sweep.sample && sampled == 0) fail_at(*axes, "axes", "a range for `sample` to draw from");
+  if (sweep.sample && sampled == 0) fail_at(*axes, name, "a range for `sample` to draw from");
   if (sweep.sample && sweep.sample->kind == SweepSample::Kind::kSobol &&
       static_cast<std::size_t>(sampled) > kSobolDimensions) {
-    fail_at(*axes, "axes", "at most " + std::to_string(kSobolDimensions) + " ranges for a Sobol sample");
+    fail_at(*axes, name, "at most " + std::to_string(kSobolDimensions) + " ranges for a Sobol sample");
   }
 }
 
@@ -172,6 +172,23 @@ void read_boundary(ConfigReader& reader, SweepFile& sweep) {
   }
 }
 
+void read_detectors(ConfigReader& reader, SweepFile& sweep) {
+  const ConfigNode* node = reader.find("detectors");
+  if (node == nullptr) return;
+  std::vector<std::string> known;
+  for (const Detector detector : kDetectors) known.emplace_back(to_string(detector));
+  if (node->is_scalar() && node->text == "all") {
+    sweep.detectors = known;
+    return;
+  }
+  for (const ConfigNode& item : list_of(*node, "detectors")) {
+    const std::string& name = text_of(item, "detectors");
+    const bool is_known = std::find(known.begin(), known.end(), name) != known.end();
+    if (!is_known) fail_at(item, "detectors", "one of " + joined(known) + ", or `all` in place of a list");
+    sweep.detectors.push_back(name);
+  }
+}
+
 }  // namespace
 
 AxisValue rounded_value(double number) {
@@ -189,6 +206,15 @@ bool SweepAxis::is_numeric() const {
   return is_sampled() || std::all_of(values.begin(), values.end(), [](const AxisValue& v) { return v.number; });
 }
 
+void read_runs(ConfigReader& reader, SweepFile& sweep, const std::string& axes) {
+  read_sample(reader, sweep);
+  read_axes(reader, axes, sweep);
+  read_fixed(reader, sweep.fixed);
+  refuse_fixed_axes(reader, sweep);
+  read_seeds(reader, sweep.seeds);
+  read_estimators(reader, sweep);
+}
+
 SweepFile read_sweep_file(const std::filesystem::path& path) {
   const ConfigNode file = read_yaml_file(path);
   SweepFile sweep;
@@ -196,14 +222,10 @@ SweepFile read_sweep_file(const std::filesystem::path& path) {
   sweep.path = path;
   ConfigReader reader(file, "");
   const bool has_scenario = reader.read("scenario", sweep.scenario);
-  read_sample(reader, sweep);
-  read_axes(reader, sweep);
-  read_fixed(reader, sweep.fixed);
-  refuse_fixed_axes(reader, sweep);
-  read_seeds(reader, sweep.seeds);
-  read_estimators(reader, sweep);
+  read_runs(reader, sweep);
   read_limits(reader, sweep.limits);
   read_boundary(reader, sweep);
+  read_detectors(reader, sweep);
   reader.finish();
   if (!has_scenario) fail_at(file, "scenario", "the scenario's file");
   return sweep;

@@ -49,14 +49,19 @@ struct SweepFile {
   std::vector<std::uint64_t> seeds;     ///< ascending; empty: the scenario's own
   std::vector<std::string> estimators;  ///< by name; empty: the scenario's own
   RunLimits limits;
-  std::string boundary_axis;  ///< key of the axis whose boundary is sought; empty: every run is made
+  std::string boundary_axis;           ///< key of the axis whose boundary is sought; empty: every run is made
+  std::vector<std::string> detectors;  ///< of degeneracy, to be judged in every run
 };
 
 /// Keys: scenario, set {KEY: VALUE}, axes {KEY: [VALUE, ...] | {range: [a, b], count | step} | {log_range: [a, b],
 /// count}}, sample {latin_hypercube: N} or {sobol: N} (then ranges have neither count nor step, and lists are crossed
 /// with the sample), seeds [N, ...] or a count (1 ... N), estimators [NAME, ...], limits {time_s, memory_mb},
-/// find_boundary KEY.
+/// find_boundary KEY, detectors [NAME, ...] or `all`.
 /// @throws InputError for anything missing, malformed, unknown or twice
 SweepFile read_sweep_file(const std::filesystem::path& path);
+
+/// What other studies' files have in common with a sweep's: sample, axes, set, seeds and estimators.
+/// @param axes  the key that the axes stand under
+void read_runs(ConfigReader& reader, SweepFile& sweep, const std::string& axes = "axes");
 
 }  // namespace plumbline

@@ -16,7 +16,12 @@ void write_sweep_outputs(const std::filesystem::path& root, const SweepPlan& pla
   std::error_code error;
   std::filesystem::create_directories(root / "charts", error);
   if (error) throw InputError((root / "charts").string() + ": cannot be created: " + error.message());
-  const SweepReport report = sweep_report(plan, rows);
+  const LabFindings lab = plan.detectors.empty() ? LabFindings{} : lab_findings(plan, root);
+  if (!plan.detectors.empty()) {
+    write_file_atomically(root / "detectors.csv", detectors_csv(lab));
+    write_file_atomically(root / "mitigations.csv", mitigations_csv(lab));
+  }
+  const SweepReport report = sweep_report(plan, rows, lab);
   for (const Drawing& chart : report.charts) {
     write_file_atomically(root / "charts" / (chart.name + ".svg"), svg_document(chart));
   }

@@ -7,8 +7,8 @@
 
 namespace plumbline {
 
-/// Writes what people and programs read of a sweep: table.csv, table.jsonl, timing.csv, boundary.csv, report.html and
-/// charts/*.svg, each whole or not at all.
+/// Writes what people and programs read of a sweep: table.csv, table.jsonl, timing.csv, boundary.csv, detectors.csv,
+/// report.html and charts/*.svg, each whole or not at all.
 /// @throws InputError if one cannot be written
 void write_sweep_outputs(const std::filesystem::path& root, const SweepPlan& plan, const std::vector<RunRow>& rows);
 

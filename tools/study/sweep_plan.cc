@@ -116,17 +116,12 @@ std::optional<std::size_t> SweepPlan::boundary() const {
 }
 
 SweepPlan make_plan(const SweepFile& sweep) {
-  SweepPlan plan{sweep.name,
-                 sweep.scenario.stem().string(),
-                 sweep.axes,
-                 sweep.sample,
-                 sweep.fixed,
-                 sweep.estimators,
-                 sweep.seeds,
-                 sweep.limits,
-                 sweep.boundary_axis,
-                 program_version(),
-                 {}};
+  SweepPlan plan{sweep.name,          sweep.scenario.stem().string(),
+                 sweep.axes,          sweep.sample,
+                 sweep.fixed,         sweep.estimators,
+                 sweep.seeds,         sweep.limits,
+                 sweep.boundary_axis, sweep.detectors,
+                 program_version(),   {}};
   take_defaults(sweep, plan);
   std::vector<Values> rows = crossed_rows(sweep);
   std::sort(rows.begin(), rows.end(), before);

@@ -30,6 +30,7 @@ struct SweepPlan {
   std::vector<std::uint64_t> seeds;
   RunLimits limits;
   std::string boundary_axis;
+  std::vector<std::string> detectors;
   std::string program;  ///< version and commit that make the runs
   std::vector<PlannedRun> runs;
 

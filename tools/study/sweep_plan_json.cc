@@ -66,6 +66,7 @@ std::string plan_json(const SweepPlan& plan) {
   json["seeds"] = plan.seeds;
   json["limits"] = {{"time_s", plan.limits.time_s}, {"memory_mb", plan.limits.memory_mb}};
   json["find_boundary"] = plan.boundary_axis;
+  if (!plan.detectors.empty()) json["detectors"] = plan.detectors;
   json["program"] = plan.program;
   json["runs"] = ordered_json::array();
   for (const PlannedRun& run : plan.runs) json["runs"].push_back(json_of(run));
@@ -88,6 +89,7 @@ SweepPlan plan_of_json(const std::string& text) {
   plan.seeds = json.at("seeds").get<std::vector<std::uint64_t>>();
   plan.limits = {json.at("limits").at("time_s"), json.at("limits").at("memory_mb")};
   plan.boundary_axis = json.at("find_boundary");
+  plan.detectors = json.value("detectors", std::vector<std::string>{});
   plan.program = json.at("program");
   for (const ordered_json& run : json.at("runs")) plan.runs.push_back(run_of(run));
   return plan;

@@ -80,6 +80,7 @@ RunCommand plumbline_run(const SweepFile& sweep, const SweepPlan& plan, const st
       command.emplace_back("--set");
       command.push_back(override);
     }
+    if (!plan.detectors.empty()) command.emplace_back("--detectors");
     return command;
   };
 }
