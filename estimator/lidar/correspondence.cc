@@ -81,9 +81,9 @@ Vector6d component_jacobian(const Eigen::Vector3d& direction, const Eigen::Vecto
 
 }  // namespace
 
-namespace {
-
-std::optional<MapPlane> fit_wide_plane(const Positions& points, const FitLimits& limits) {
+std::optional<MapPlane> fit_plane(const NearestSamples& neighbours, const FitLimits& limits) {
+  const Positions points = all_positions(neighbours);
+  if (points.count < limits.least_neighbours) return std::nullopt;
   const Scatter s = scatter_of(points);
   // Neighbours on a single ring are collinear: their second eigenvalue is as small as the first.
   if (s.eigenvalues[1] < limits.least_spread_m * limits.least_spread_m) return std::nullopt;
@@ -95,41 +95,6 @@ std::optional<MapPlane> fit_wide_plane(const Positions& points, const FitLimits&
     if (std::abs(normal.dot(points[i] - s.centroid)) > limits.largest_residual_m) return std::nullopt;
   }
   return MapPlane{normal, normal.dot(s.centroid)};
-}
-
-/// A surface as narrow as a cell or two (the side of a pillar) gives its neighbours no width to fit a plane to, but
-/// each of them brings the normal that the scans saw there.
-std::optional<MapPlane> fit_narrow_plane(const NearestSamples& neighbours, const FitLimits& limits) {
-  Positions points;
-  Eigen::Vector3d normal_sum = Eigen::Vector3d::Zero();
-  const Eigen::Vector3d first_normal = neighbours[0].normal.cast<double>();
-  for (int i = 0; i < neighbours.size(); ++i) {
-    const Eigen::Vector3d n = neighbours[i].normal.cast<double>();
-    const Eigen::Vector3d step = neighbours[i].position - neighbours[0].position;
-    if (std::abs(first_normal.dot(step)) > limits.largest_residual_m) continue;
-    if (n.dot(first_normal) < limits.least_agreement || step.norm() > limits.narrow_reach_m) continue;
-    points.push(neighbours[i].position);
-    normal_sum += n;
-  }
-  if (points.count < limits.least_narrow || normal_sum.isZero()) return std::nullopt;
-  const Scatter s = scatter_of(points);
-  Eigen::Vector3d normal = normal_sum.normalized();
-  // Where the neighbours span a length, the normal stands across it.
-  if (s.eigenvalues[2] > limits.least_spread_m * limits.least_spread_m) {
-    const Eigen::Vector3d along = s.eigenvectors.col(2);
-    normal = (normal - normal.dot(along) * along).normalized();
-  }
-  if (normal.dot(normal_sum) < limits.least_agreement * points.count) return std::nullopt;
-  return MapPlane{normal, normal.dot(s.centroid)};
-}
-
-}  // namespace
-
-std::optional<MapPlane> fit_plane(const NearestSamples& neighbours, const FitLimits& limits) {
-  if (neighbours.size() >= limits.least_neighbours) {
-    if (const auto wide = fit_wide_plane(all_positions(neighbours), limits)) return wide;
-  }
-  return neighbours.size() > 0 ? fit_narrow_plane(neighbours, limits) : std::nullopt;
 }
 
 std::optional<MapLine> fit_line(const NearestSamples& neighbours, const FitLimits& limits) {

@@ -31,9 +31,6 @@ struct FitLimits {
   double least_spread_m = 0.12;      ///< standard deviation along each large direction
   double map_sigma_m = 0.006;        ///< noise of a map point, at least
   double largest_tilt_sigma = 0.03;  ///< [rad] of the fitted normal or direction
-  int least_narrow = 2;              ///< neighbours on a surface too narrow for the test
-  double narrow_reach_m = 0.6;       ///< of them from the nearest
-  double least_agreement = 0.95;     ///< cosine between their normals
 };
 
 std::optional<MapPlane> fit_plane(const NearestSamples& neighbours, const FitLimits& limits);

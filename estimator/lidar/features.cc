@@ -30,10 +30,6 @@ constexpr float kEdgeSigmas = 4.5F;
 constexpr float kPlaneCurvature = 1.5e-3F;
 constexpr float kPlaneSigmas = 2.5F;
 
-// Patches smaller than the window whose direction noise blurs by more [rad] are not used.
-constexpr float kLargestTilt = 0.1F;
-constexpr int kLeastPatch = 3;
-
 constexpr float kGrazing = 0.1736F;            // sin(10 deg), thesis 4.1: beam to surface
 constexpr float kSilhouetteGrazing = 0.3420F;  // sin(20 deg): a run that ends by turning away has no edge at its end
 constexpr int kSectors = 4;
@@ -52,7 +48,6 @@ struct Shape {
   float deviation_m = 0.0F;  // of the return from its neighbours' mean, across the surface
   float sigma_m = 0.0F;      // of the deviation, from range noise
   int half_window = 0;       // 0: too near the end of its run
-  float tilt_sigma = 0.0F;   // [rad] of the tangent, from range noise
   Eigen::Vector3f tangent = Eigen::Vector3f::Zero();
 };
 
@@ -70,13 +65,8 @@ class Extraction {
         range_sigma_(static_cast<float>(calibration.lidar_range_sigma_m)),
         origin_(calibration.body_from_lidar.translation.cast<float>()) {
     shapes_.resize(static_cast<std::size_t>(table.size()));
-    surfaces_.resize(shapes_.size());
     for (int r = 0; r < table_.ring_count(); ++r) {
-      for (int i = table_.ring_begin(r); i < table_.ring_end(r); ++i) {
-        const int wanted = wanted_half_window(r, i);
-        shape(i) = measure(i, wanted, kLeastHalfWindow);
-        surfaces_[static_cast<std::size_t>(i)] = planar_patch(i, wanted);
-      }
+      for (int i = table_.ring_begin(r); i < table_.ring_end(r); ++i) shape(i) = measure(r, i);
     }
   }
 
@@ -105,7 +95,7 @@ class Extraction {
       Across above(table_, r, 1);
       Across below(table_, r, -1);
       for (int i = table_.ring_begin(r); i < table_.ring_end(r); ++i) {
-        if (surface(i).half_window == 0) continue;
+        if (!is_planar(i)) continue;
         const Eigen::Vector3f normal = normal_at(i, above, below);
         if (normal.isZero()) continue;
         add_to_cell({table_.position(i), table_.intensity(i), normal, 0.0F, seconds(i), r}, index, cells, counts);
@@ -162,9 +152,6 @@ class Extraction {
   Shape& shape(int i) { return shapes_[static_cast<std::size_t>(i)]; }
   const Shape& shape(int i) const { return shapes_[static_cast<std::size_t>(i)]; }
   float seconds(int i) const { return 1e-9F * static_cast<float>(table_.offset_ns(i)); }
-  /// The planar patch around a return, at the largest scale at which it is planar.
-  const Shape& surface(int i) const { return surfaces_[static_cast<std::size_t>(i)]; }
-  const Shape& patch(int i) const { return surface(i).half_window > 0 ? surface(i) : shape(i); }
   Eigen::Vector3f beam(int i) const { return (table_.position(i) - origin_).normalized(); }
 
   int wanted_half_window(int ring, int i) const {
@@ -175,10 +162,10 @@ class Extraction {
   /// Curvature (5.12), times the range, with two changes. The centre is the mean of a few returns, which cuts its
   /// noise. The part along the surface is left out: uneven spacing of the returns on a slanting wall, not shape, causes
   /// it.
-  Shape measure(int i, int wanted_half_window, int least_half_window) const {
+  Shape measure(int ring, int i) const {
     const int room = std::min(i - table_.run_begin(i), table_.run_end(i) - 1 - i);
-    const int n = std::min(wanted_half_window, room);
-    if (n < least_half_window) return {};
+    const int n = std::min(wanted_half_window(ring, i), room);
+    if (n < kLeastHalfWindow) return {};
     const int core = std::max(1, n / 8);
     const Eigen::Vector3f before = table_.mean(i - n, i - 1);
     const Eigen::Vector3f after = table_.mean(i + 1, i + n);
@@ -186,7 +173,6 @@ class Extraction {
     Shape result;
     result.half_window = n;
     result.tangent = (after - before).normalized();
-    result.tilt_sigma = range_sigma_ * std::sqrt(2.0F / static_cast<float>(n)) / (after - before).norm();
     result.deviation_m = (offset - offset.dot(result.tangent) * result.tangent).norm();
     result.sigma_m = range_sigma_ / std::sqrt(static_cast<float>(2 * core + 1));
     return result;
@@ -274,32 +260,21 @@ class Extraction {
     return position;
   }
 
-  bool is_planar(const Shape& s, int i) const {
+  bool is_planar(int i) const {
+    const Shape& s = shape(i);
     return s.half_window > 0 && s.deviation_m < std::max(kPlaneCurvature * table_.range(i), kPlaneSigmas * s.sigma_m);
-  }
-
-  /// The sides of pillars, door frames and cabinets are narrower than the window, and in a tunnel they are all that
-  /// tells how far one has come: where the whole window is not planar, half or a quarter of it may be.
-  Shape planar_patch(int i, int wanted_half_window) const {
-    const Shape& whole = shape(i);
-    if (is_planar(whole, i)) return whole;
-    for (int n = wanted_half_window / 2; n >= kLeastPatch; n /= 2) {
-      const Shape patch = measure(i, n, kLeastPatch);
-      if (patch.half_window > 0 && patch.tilt_sigma < kLargestTilt && is_planar(patch, i)) return patch;
-    }
-    return {};
   }
 
   /// The step to the same surface on another ring, or zero where that ring sees another surface.
   Eigen::Vector3f step_across(int i, int other) const {
-    if (other < 0 || patch(other).half_window == 0) return Eigen::Vector3f::Zero();
+    if (other < 0 || shape(other).half_window == 0) return Eigen::Vector3f::Zero();
     const Eigen::Vector3f step = smoothed(other) - smoothed(i);
     const bool near = step.norm() < kCrossLimit * table_.range(i) + kCrossLimit_m;
     return near ? step : Eigen::Vector3f::Zero();
   }
 
   Eigen::Vector3f smoothed(int i) const {
-    const int core = std::max(1, patch(i).half_window / 3);
+    const int core = std::max(1, shape(i).half_window / 3);
     return table_.mean(i - core, i + core);
   }
 
@@ -312,7 +287,7 @@ class Extraction {
     if (!up.isZero() && !down.isZero() && up.normalized().dot(down.normalized()) < kCrossBend) {
       across = up.norm() < down.norm() ? up : down;  // a crease: the nearer neighbour is likelier on this side of it
     }
-    const Eigen::Vector3f normal = surface(i).tangent.cross(across);
+    const Eigen::Vector3f normal = shape(i).tangent.cross(across);
     const float length = normal.norm();
     if (length < 0.3F * across.norm() || length <= 0.0F) return Eigen::Vector3f::Zero();
     const float towards = normal.dot(beam(i)) / length;
@@ -342,7 +317,6 @@ class Extraction {
   float range_sigma_;
   Eigen::Vector3f origin_;
   std::vector<Shape> shapes_;
-  std::vector<Shape> surfaces_;
 };
 
 }  // namespace

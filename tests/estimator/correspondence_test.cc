@@ -104,22 +104,5 @@ TEST(Correspondence, OfTwoParallelEdgesTheNearerOnesLineIsFound) {
   EXPECT_NEAR(line->point.x(), 0.0, 1e-9);
 }
 
-TEST(Correspondence, ANarrowSurfaceIsAPlaneByItsNormals) {
-  // Two cells above each other on a pillar's side, and one of the next pillar's, a metre on.
-  const std::vector<MapSample> side{{{5.0, 2.0, 0.0}, {-1.0F, 0.0F, 0.0F}},
-                                    {{5.0, 2.05, 0.4}, {-0.998F, 0.06F, 0.0F}},
-                                    {{6.0, 2.0, 0.2}, {-1.0F, 0.0F, 0.0F}}};
-  NearestSamples nearest(10, 2.0, {-1.0F, 0.0F, 0.0F});
-  for (const MapSample& sample : side) nearest.offer((sample.position - side[0].position).squaredNorm(), sample);
-  const auto plane = fit_plane(nearest, {});
-  ASSERT_TRUE(plane);
-  EXPECT_GT(-plane->normal.x(), 0.99);
-  EXPECT_NEAR(plane->normal.dot(Eigen::Vector3d(5.0, 2.0, 0.2)), plane->offset, 0.01);
-
-  NearestSamples alone(10, 2.0, {-1.0F, 0.0F, 0.0F});
-  alone.offer(0.0, side[0]);
-  EXPECT_FALSE(fit_plane(alone, {}));
-}
-
 }  // namespace
 }  // namespace plumbline

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "estimator/lidar/deskew.h"
@@ -131,25 +130,6 @@ TEST(DirectionSampling, KeepsTheFewThatFaceAlongATunnel) {
   EXPECT_EQ(along, 50);
   EXPECT_TRUE(std::is_sorted(picked.begin(), picked.end()));
   EXPECT_EQ(sample_by_direction(planes, 10000).size(), planes.size());
-}
-
-TEST(Features, SidesOfPillarsNarrowerThanTheWindowAreSurfaces) {
-  // Pillars stand 0.3 m out of a tunnel's walls. Their faces are all that tells how far along it one is.
-  BoxWorld tunnel = testing::smooth_tunnel();
-  for (double x = -10.0; x <= 10.0; x += 4.0) {
-    tunnel.boxes.push_back({{x, -2.25, -5.0}, {x + 0.5, -1.95, 5.0}});
-    tunnel.boxes.push_back({{x, 1.95, -5.0}, {x + 0.5, 2.25, 5.0}});
-  }
-  int along_the_tunnel = 0;
-  for (const FeaturePoint& p : features_at(tunnel, at(0.3, 0.2, 0.0)).planes) {
-    if (std::abs(p.normal.x()) < 0.9F) continue;
-    ++along_the_tunnel;
-    // A face stands at a multiple of 4 m from -10 m on, or half a metre behind.
-    const double face = std::remainder(p.position.x() + 0.3 + 10.0, 4.0);
-    // Ten metres off, a cell's mean may take in a return of the wall beside.
-    EXPECT_LT(std::min(std::abs(face), std::abs(face - 0.5)), 0.12) << p.position.transpose();
-  }
-  EXPECT_GE(along_the_tunnel, 20);
 }
 
 }  // namespace
