@@ -93,8 +93,8 @@ TEST(MountResults, NameTheLimitThatIsBroken) {
   MountPrediction prediction;
   prediction.own_body_share = 0.3;
   prediction.overlap = 0.1;
-  EXPECT_EQ(broken_limit(prediction, {0.2, 0.0}), "the vehicle takes up 30 % of the view");
-  EXPECT_EQ(broken_limit(prediction, {0.5, 0.4}), "the lidar sees 10 % of the image");
+  EXPECT_EQ(broken_limit(prediction, {0.2, 0.0}), "the vehicle takes up 30.0 % of the view");
+  EXPECT_EQ(broken_limit(prediction, {0.5, 0.4}), "the lidar sees 10.0 % of the image");
   EXPECT_EQ(broken_limit(prediction, {0.5, 0.0}), "");
 }
 
