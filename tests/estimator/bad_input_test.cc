@@ -103,7 +103,9 @@ class Feed {
     EXPECT_EQ(outputs.back().stamp_ns, kEnd_ns);
     // Nothing has moved. Two good seconds of scans bring the estimate back to the room; without them it drifts as the
     // IMU does.
-    if (has_lidar) EXPECT_LT(outputs.back().world_from_body.translation.norm(), 0.1);
+    if (has_lidar) {
+      EXPECT_LT(outputs.back().world_from_body.translation.norm(), 0.1);
+    }
   }
 
  private:
