@@ -50,7 +50,9 @@ TEST_P(DatasetRoundTrip, GivesBackTheImu) {
   for (std::size_t i = 0; i < found.size(); ++i) {
     EXPECT_EQ(found[i].stamp_ns, expected[i].stamp_ns);
     EXPECT_EQ(found[i].specific_force, expected[i].specific_force);
-    if (GetParam().imu) EXPECT_EQ(found[i].angular_rate, expected[i].angular_rate);
+    if (GetParam().imu) {
+      EXPECT_EQ(found[i].angular_rate, expected[i].angular_rate);
+    }
   }
 }
 
