@@ -35,7 +35,7 @@ Eigen::MatrixXd lifted_to_the_middle(const Eigen::MatrixXd& information) {
 InertialFilter::InertialFilter(const InitialState& start, const ImuNoise& noise, bool remapping)
     : state_(start.state), noise_(noise), remapping_(remapping) {
   covariance_.block<3, 3>(kVelocity, kVelocity).diagonal().setConstant(squared(start.velocity_sigma));
-  covariance_.block<3, 3>(kGyroBias, kGyroBias).diagonal().setConstant(squared(start.gyro_bias_sigma));
+  covariance_.block<3, 3>(kGyroBias, kGyroBias) = start.gyro_bias_covariance;
   // The world's z axis is where the mean force pointed. Where an accelerometer bias tilted it, gravity leans the other
   // way in that world: bias across gravity and gravity's lean are one unknown until the body turns.
   const double bias_variance = squared(noise.accel_turn_on_sigma);

@@ -7,59 +7,107 @@ namespace plumbline {
 namespace {
 constexpr double kRestWindow_s = 1.0;  // averages a consumer gyro's bias to 0.02 deg/s
 constexpr double kDecisionWindow_s = 0.1;
-constexpr double kMovingFactor = 5.0;    // spread above so many times the data sheet's noise is motion
-constexpr double kMaxRestRate = 0.1;     // [rad/s], far above any turn-on bias at rest
-constexpr double kMovingTilt = 0.1;      // [rad], while walking the mean force is off the vertical by about this
-constexpr double kRestSigma = 1e-4;      // [rad, m] a sample
-constexpr double kDensityMargin = 2.0;   // of a single sample: rounding to the unit's steps adds to its noise
-constexpr double kMovingVelocity = 5.0;  // [m/s]
+// What the deviations from the mean integrate to within a second: a hand held still 0.02 rad and 0.03 m/s, cars and
+// carts at constant speed 0.07 m/s and more, a walker 0.3 m/s.
+constexpr double kRestStray = 0.05;       // [m/s]
+constexpr double kManoeuvreStray = 0.25;  // [m/s]
+constexpr double kManoeuvreAngle = 0.05;  // [rad]
+constexpr double kMaxRestRate = 0.1;      // [rad/s], above any turn-on bias at rest
+constexpr double kMaxGravityError = 0.5;  // [m/s^2], of the mean force's length
+constexpr double kRestVelocity = 0.01;    // [m/s]
+constexpr double kSteadyTilt = 0.03;      // [rad], a vehicle that gently gains or loses speed
+constexpr double kManoeuvreTilt = 0.1;    // [rad], while walking the mean force is off the vertical by about this
+constexpr double kTravelVelocity = 5.0;   // [m/s]
+constexpr double kImplausibleBias = 5.0;  // turn-on sigmas; more than that about the vertical is a turn
+constexpr double kSurprise = 3.0;         // sigmas
+constexpr double kRestSigma = 1e-4;       // [rad, m] a sample
+constexpr double kDensityMargin = 2.0;    // of a single sample: rounding to the unit's steps adds to its noise
+
+double squared(double x) { return x * x; }
+
+/// Range of the walk that the deviations from the mean integrate to, the longest axis.
+template <typename Reading>
+double range_of_walk(const std::vector<ImuSample>& samples, const Eigen::Vector3d& mean, double period,
+                     Reading reading) {
+  Eigen::Vector3d walk = Eigen::Vector3d::Zero(), low = walk, high = walk;
+  for (const ImuSample& sample : samples) {
+    walk += period * (reading(sample) - mean);
+    low = low.cwiseMin(walk);
+    high = high.cwiseMax(walk);
+  }
+  return (high - low).maxCoeff();
+}
+
 }  // namespace
 
 Initializer::Initializer(const Calibration& calibration) : noise_(calibration.imu), rate_hz_(calibration.imu_rate_hz) {}
 
 std::optional<InitialState> Initializer::add(const ImuSample& sample) {
-  ++count_;
-  const Eigen::Vector3d rate_step = sample.angular_rate - mean_rate_;
-  const Eigen::Vector3d force_step = sample.specific_force - mean_force_;
-  mean_rate_ += rate_step / count_;
-  mean_force_ += force_step / count_;
-  rate_square_sum_ += rate_step.cwiseProduct(sample.angular_rate - mean_rate_);
-  force_square_sum_ += force_step.cwiseProduct(sample.specific_force - mean_force_);
+  samples_.push_back(sample);
+  const double count = static_cast<double>(samples_.size());
+  mean_rate_ += (sample.angular_rate - mean_rate_) / count;
+  mean_force_ += (sample.specific_force - mean_force_) / count;
 
-  const double elapsed = count_ / rate_hz_;
+  const double elapsed = count / rate_hz_;
   if (elapsed < kDecisionWindow_s) return std::nullopt;
-  const bool in_motion = moving();
-  if (!in_motion && elapsed < kRestWindow_s) return std::nullopt;
+  const Excursion strayed = excursion();
+  const bool manoeuvres = manoeuvring(strayed);
+  if (!manoeuvres && elapsed < kRestWindow_s) return std::nullopt;
 
   InitialState start;
   start.state.stamp_ns = sample.stamp_ns;
   start.state.world_from_body = attitude();
-  if (in_motion) {
-    start.tilt_sigma = kMovingTilt;
-    start.gyro_bias_sigma = noise_.gyro_turn_on_sigma;
-    start.velocity_sigma = kMovingVelocity;
-  } else {
-    start.state.gyro_bias = mean_rate_;
-    // Only the length of the mean force is known to be gravity's; its direction is shared with the attitude.
-    start.state.accel_bias = mean_force_ * (1.0 - kStandardGravity / mean_force_.norm());
-    start.tilt_sigma = noise_.accel_density / std::sqrt(elapsed) / kStandardGravity;
-    start.gyro_bias_sigma = noise_.gyro_density / std::sqrt(elapsed);
-    start.velocity_sigma = 0.01;
+  if (manoeuvres) {
+    start.tilt_sigma = kManoeuvreTilt;
+    start.gyro_bias_covariance.diagonal().setConstant(squared(noise_.gyro_turn_on_sigma));
+    start.velocity_sigma = kTravelVelocity;
+    return start;
   }
+  const bool at_rest = strayed.velocity < kRestStray;
+  // Between two random moments of a swing the body turns by half its range, root mean square.
+  find_gyro_bias(std::hypot(noise_.gyro_density / std::sqrt(elapsed), 0.5 * strayed.angle / elapsed), at_rest, start);
+  // Only the length of the mean force is known to be gravity's; its direction is shared with the attitude.
+  start.state.accel_bias = mean_force_ * (1.0 - kStandardGravity / mean_force_.norm());
+  const double force_sigma = std::hypot(noise_.accel_density / std::sqrt(elapsed), 0.5 * strayed.velocity / elapsed);
+  start.tilt_sigma = std::hypot(force_sigma / kStandardGravity, at_rest ? 0.0 : kSteadyTilt);
+  start.velocity_sigma = at_rest ? std::hypot(kRestVelocity, strayed.velocity) : kTravelVelocity;
   return start;
 }
 
-bool Initializer::moving() const {
-  const double n = count_;
-  const double rate_limit = kMovingFactor * noise_.gyro_density * std::sqrt(rate_hz_);
-  const double force_limit = kMovingFactor * noise_.accel_density * std::sqrt(rate_hz_);
-  return mean_rate_.norm() > kMaxRestRate || std::sqrt(rate_square_sum_.maxCoeff() / n) > rate_limit ||
-         std::sqrt(force_square_sum_.maxCoeff() / n) > force_limit;
+/// The mean rate as a measurement of the bias, weighed against what the data sheet says of it. Data sheets are beaten
+/// by single units, so a mean that they cannot explain widens the expectation.
+void Initializer::find_gyro_bias(double rate_sigma, bool at_rest, InitialState& start) const {
+  const Eigen::Matrix3d body_from_world = start.state.world_from_body.rotation.conjugate().toRotationMatrix();
+  const Eigen::Vector3d mean = body_from_world.transpose() * mean_rate_;
+  Eigen::Vector3d bias, variance;
+  for (int i = 0; i < 3; ++i) {
+    const bool surprises = std::abs(mean[i]) > kSurprise * std::hypot(noise_.gyro_turn_on_sigma, rate_sigma);
+    const double expected = surprises ? std::abs(mean[i]) : noise_.gyro_turn_on_sigma;
+    const bool turns = !at_rest && i == 2 && std::abs(mean[i]) > kImplausibleBias * noise_.gyro_turn_on_sigma;
+    const double weight = turns ? 0.0 : squared(expected) / (squared(expected) + squared(rate_sigma));
+    bias[i] = weight * mean[i];
+    variance[i] = turns ? squared(noise_.gyro_turn_on_sigma) : weight * squared(rate_sigma);
+  }
+  start.state.gyro_bias = body_from_world * bias;
+  start.gyro_bias_covariance = body_from_world * variance.asDiagonal() * body_from_world.transpose();
+}
+
+Initializer::Excursion Initializer::excursion() const {
+  const double period = 1.0 / rate_hz_;
+  return {range_of_walk(samples_, mean_rate_, period, [](const ImuSample& s) { return s.angular_rate; }),
+          range_of_walk(samples_, mean_force_, period, [](const ImuSample& s) { return s.specific_force; })};
+}
+
+bool Initializer::manoeuvring(const Excursion& excursion) const {
+  const double gravity_error = std::abs(mean_force_.norm() - kStandardGravity);
+  return excursion.angle > kManoeuvreAngle || excursion.velocity > kManoeuvreStray ||
+         mean_rate_.norm() > kMaxRestRate ||
+         gravity_error > std::max(kMaxGravityError, 3.0 * noise_.accel_turn_on_sigma);
 }
 
 Matrix6d Initializer::increment_covariance() const {
   const double sample_sigma = kDensityMargin * noise_.accel_density * std::sqrt(rate_hz_) / kStandardGravity;
-  const double n = std::max(2, count_);
+  const double n = std::max<double>(2.0, static_cast<double>(samples_.size()));
   Vector6d variance = Vector6d::Constant(kRestSigma * kRestSigma);
   variance.head<2>().array() += sample_sigma * sample_sigma / (n * (n - 1.0));
   return variance.asDiagonal();

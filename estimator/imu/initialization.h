@@ -1,21 +1,27 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "estimator/imu/mechanization.h"
 #include "estimator/messages.h"
 
 namespace plumbline {
 
-/// What the first samples tell: attitude against gravity, gyro bias if at rest, and how sure that is.
+/// What the first samples tell: attitude against gravity, gyro bias unless travelling, and how sure that is.
 struct InitialState {
   NavigationState state;
-  double tilt_sigma = 0.0;       ///< [rad], given a perfect accelerometer
-  double gyro_bias_sigma = 0.0;  ///< [rad/s]
-  double velocity_sigma = 0.0;   ///< [m/s]
+  double tilt_sigma = 0.0;                                         ///< [rad], given a perfect accelerometer
+  Eigen::Matrix3d gyro_bias_covariance = Eigen::Matrix3d::Zero();  ///< [rad^2/s^2]
+  double velocity_sigma = 0.0;                                     ///< [m/s]
 };
 
-/// Watches the first samples. At rest it averages for a while; in motion it starts at once and says how unsure it is.
+/// Watches the first samples, and judges by how far the readings, integrated, stray from their mean's line:
+/// - at rest, but for what a hand or an idle engine does: a second is averaged, and the straying says how much of the
+///   mean may be motion;
+/// - steady, as a vehicle at constant speed is, or a knocked one at rest: the same, but the velocity is unknown, and a
+///   mean rate about the vertical beyond such units' biases is a turn;
+/// - manoeuvring: it starts at once, with the data sheet's turn-on figures.
 class Initializer {
  public:
   explicit Initializer(const Calibration& calibration);
@@ -29,15 +35,20 @@ class Initializer {
   Matrix6d increment_covariance() const;
 
  private:
-  bool moving() const;
+  /// How far the body strayed while watched: of the integrated deviations from the mean, the longest axis.
+  struct Excursion {
+    double angle = 0.0;     ///< [rad]
+    double velocity = 0.0;  ///< [m/s]
+  };
+  Excursion excursion() const;
+  bool manoeuvring(const Excursion& excursion) const;
+  void find_gyro_bias(double rate_sigma, bool at_rest, InitialState& start) const;
 
   ImuNoise noise_;
   double rate_hz_;
-  int count_ = 0;
+  std::vector<ImuSample> samples_;
   Eigen::Vector3d mean_rate_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d mean_force_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d rate_square_sum_ = Eigen::Vector3d::Zero();  ///< of deviations from the running mean
-  Eigen::Vector3d force_square_sum_ = Eigen::Vector3d::Zero();
 };
 
 }  // namespace plumbline

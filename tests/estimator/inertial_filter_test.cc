@@ -154,7 +154,7 @@ TEST(InertialFilter, GravityHoldsTheAttitudeWhileTheMapBends) {
   // by 0.1 mrad in pitch a scan. Believed for absolute, the fixes would tilt the estimate by 60 mrad in a minute.
   InitialState start;
   start.tilt_sigma = 1e-4;
-  start.gyro_bias_sigma = 3e-4;
+  start.gyro_bias_covariance.diagonal().setConstant(9e-8);
   start.velocity_sigma = 0.01;
   InertialFilter filter(start, ImuNoise{}, true);
   filter.renew_map(1.0, Matrix6d::Zero());

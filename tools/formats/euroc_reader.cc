@@ -18,6 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kUnknownTurnOn = 0.05;  // [rad/s]; the format has no such figure, and uncalibrated MEMS err by 3 deg/s
 constexpr std::uintmax_t kMostYamlBytes = 1'000'000;
 constexpr const char* kSeparators = ", \t\r";
 constexpr Range kAnything{-1e9, 1e9};
@@ -50,9 +51,11 @@ class EurocFolder {
     if (images_[0].empty() && imu_.empty()) throw InputError(path.string() + ": holds neither imu0 nor cam0");
   }
 
-  Dataset open() const {
+  Dataset open() {
     Dataset dataset;
-    dataset.calibration = complete_calibration(calibration(), path_, settings_);
+    const Calibration native = calibration();
+    for (ImuSample& sample : imu_) sample.stamp_ns += euroc_half_period_ns(native.imu_rate_hz);
+    dataset.calibration = complete_calibration(native, path_, settings_);
     dataset.recording.truth = truth();
     dataset.recording.start_ns = imu_.empty() ? images_[0].front().stamp_ns : imu_.front().stamp_ns;
     dataset.recording.end_ns = imu_.empty() ? images_[0].back().stamp_ns : imu_.back().stamp_ns;
@@ -110,6 +113,7 @@ class EurocFolder {
 
   Pose read_imu_sheet(Calibration& calibration) const {
     calibration.imu_rate_hz = std::max(1.0, rate_of(imu_));
+    calibration.imu.gyro_turn_on_sigma = kUnknownTurnOn;
     const fs::path path = root_ / "imu0" / "sensor.yaml";
     if (!fs::exists(path)) return {};
     const ConfigNode node = read_sensor_yaml(path);

@@ -49,6 +49,7 @@ class EurocWriter final : public DatasetWriter {
  public:
   EurocWriter(const fs::path& directory, const Calibration& calibration)
       : root_(directory / "mav0"),
+        half_period_ns_(euroc_half_period_ns(calibration.imu_rate_hz)),
         imu_(csv("imu0",
                  "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],"
                  "w_RS_S_z [rad s^-1],a_RS_S_x [m s^-2],a_RS_S_y [m s^-2],"
@@ -101,7 +102,7 @@ class EurocWriter final : public DatasetWriter {
   }
 
   void add(const ImuSample& sample) {
-    std::string row = std::to_string(sample.stamp_ns);
+    std::string row = std::to_string(sample.stamp_ns - half_period_ns_);
     append_values(row, sample.angular_rate);
     append_values(row, sample.specific_force);
     imu_.write(row += '\n');
@@ -146,6 +147,7 @@ class EurocWriter final : public DatasetWriter {
   }
 
   fs::path root_;
+  std::int64_t half_period_ns_;
   OutputFile imu_;
   std::map<int, OutputFile> cameras_;
 };

@@ -1,0 +1,131 @@
+#include "estimator/imu/initialization.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <stdexcept>
+
+#include "sim/random_stream.h"
+
+namespace plumbline {
+namespace {
+
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+const Eigen::Vector3d kUp(0.0, 0.0, kStandardGravity);
+const Eigen::Vector3d kBias(-0.005, 0.0, -0.012);
+
+struct Reading {
+  Eigen::Vector3d rate = Eigen::Vector3d::Zero();
+  Eigen::Vector3d force = kUp;
+};
+
+/// Runs an initializer on a motion as a unit with a bias and the calibration's white noise reads it.
+InitialState start_on(const std::function<Reading(double)>& motion, const Eigen::Vector3d& bias = kBias) {
+  Calibration calibration;
+  Initializer initializer(calibration);
+  RandomStream noise(1, "noise");
+  const double root_rate = std::sqrt(calibration.imu_rate_hz);
+  const auto white = [&](double density) {
+    return Eigen::Vector3d(Eigen::Vector3d(noise.gaussian(), noise.gaussian(), noise.gaussian()) * density * root_rate);
+  };
+  for (int i = 1;; ++i) {
+    const double t = i / calibration.imu_rate_hz;
+    const Reading exact = motion(t);
+    const auto start = initializer.add({static_cast<std::int64_t>(std::llround(t * 1e9)),
+                                        exact.rate + bias + white(calibration.imu.gyro_density),
+                                        exact.force + white(calibration.imu.accel_density)});
+    if (start) return *start;
+    if (t > 2.0) throw std::runtime_error("never started");
+  }
+}
+
+/// Within three of the sigmas that the start itself gives.
+void expect_bias_within_its_sigmas(const InitialState& start, const Eigen::Vector3d& bias) {
+  for (int i = 0; i < 3; ++i) {
+    const double sigma = std::sqrt(start.gyro_bias_covariance(i, i));
+    EXPECT_LT(std::abs(start.state.gyro_bias[i] - bias[i]), 3.0 * sigma) << i << ": " << sigma;
+  }
+}
+
+TEST(Initializer, AtRestFindsTheGyroBiasWithinASecond) {
+  const InitialState start = start_on([](double) { return Reading{}; });
+  EXPECT_NEAR(start.state.stamp_ns * 1e-9, 1.0, 0.01);
+  // White noise averaged for a second, four sigmas.
+  EXPECT_LT((start.state.gyro_bias - kBias).norm(), 4.0 * Calibration{}.imu.gyro_density);
+  EXPECT_LT(start.velocity_sigma, 0.05);
+  EXPECT_LT(start.tilt_sigma, 0.01);
+}
+
+/// A hand sways by a degree at 1.3 Hz: its mean rate over a second is not zero, and the start knows it.
+TEST(Initializer, AHandThatSwaysLeavesTheBiasUnsure) {
+  const auto sway = [](double t) {
+    Reading reading;
+    const double phase = kTwoPi * 1.3 * t;
+    reading.rate.x() = 0.01 * kTwoPi * 1.3 * std::cos(phase);
+    reading.force = Eigen::AngleAxisd(-0.01 * std::sin(phase), Eigen::Vector3d::UnitX()) * kUp;
+    return reading;
+  };
+  const InitialState swaying = start_on(sway);
+  const InitialState resting = start_on([](double) { return Reading{}; });
+  expect_bias_within_its_sigmas(swaying, kBias);
+  EXPECT_GT(swaying.gyro_bias_covariance(0, 0), 25.0 * resting.gyro_bias_covariance(0, 0));
+  EXPECT_LT(swaying.velocity_sigma, 0.1);
+}
+
+/// Ten times the unit's noise at 40 Hz, as an idle engine or standing rotors make, moves the body by micrometres: it
+/// is no motion, and a bias far beyond the data sheet's is still found.
+TEST(Initializer, VibrationAtRestIsNoMotion) {
+  const Eigen::Vector3d large_bias(-0.003, 0.02, 0.075);
+  const auto vibration = [](double t) {
+    Reading reading;
+    const double swing = std::sin(kTwoPi * 40.0 * t);
+    reading.rate.setConstant(0.05 * swing);
+    reading.force += Eigen::Vector3d::Constant(0.5 * swing);
+    return reading;
+  };
+  const InitialState start = start_on(vibration, large_bias);
+  EXPECT_LT((start.state.gyro_bias - large_bias).norm(), 2e-3);
+  EXPECT_LT(start.velocity_sigma, 0.1);
+}
+
+/// A car on the road at constant speed shakes at the frequencies of its suspension; nothing tells its speed.
+TEST(Initializer, OnTheRoadTheVelocityIsUnknown) {
+  const auto road = [](double t) {
+    Reading reading;
+    reading.force.z() += 0.6 * std::cos(kTwoPi * 1.4 * t);
+    return reading;
+  };
+  const InitialState start = start_on(road);
+  expect_bias_within_its_sigmas(start, kBias);
+  EXPECT_GE(start.velocity_sigma, 5.0);
+  EXPECT_GE(start.tilt_sigma, 0.03);
+}
+
+TEST(Initializer, ASteadyTurnOnTheRoadIsNoBias) {
+  const auto bend = [](double t) {
+    Reading reading;
+    reading.rate.z() = 0.08;
+    reading.force.z() += 0.6 * std::cos(kTwoPi * 1.4 * t);
+    return reading;
+  };
+  const InitialState start = start_on(bend);
+  expect_bias_within_its_sigmas(start, kBias);
+}
+
+TEST(Initializer, InAManoeuvreStartsAtOnce) {
+  const auto shaking = [](double t) {
+    Reading reading;
+    reading.rate.x() = 3.0 * std::sin(kTwoPi * t);
+    return reading;
+  };
+  const InitialState start = start_on(shaking);
+  EXPECT_LT(start.state.stamp_ns * 1e-9, 0.3);
+  EXPECT_TRUE(start.state.gyro_bias.isZero());
+  expect_bias_within_its_sigmas(start, kBias);
+  EXPECT_GE(start.velocity_sigma, 5.0);
+}
+
+}  // namespace
+}  // namespace plumbline
