@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -43,23 +42,6 @@ Vector6d by_eigenpairs(const Problem& problem, Coefficient coefficient) {
     if (value < kTiny) continue;
     const Vector6d u = eigen.eigenvectors().col(i);
     step += coefficient(value, -u.dot(problem.gradient) / value, u) * u;
-  }
-  return step;
-}
-
-Vector6d truncated_svd_step(const std::vector<MatchRow>& rows, double threshold) {
-  Eigen::MatrixXd a(static_cast<Eigen::Index>(rows.size()), 6);
-  Eigen::VectorXd b(a.rows());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double scale = std::sqrt(whitened(rows[i]));
-    a.row(static_cast<Eigen::Index>(i)) = scale * rows[i].jacobian().transpose();
-    b[static_cast<Eigen::Index>(i)] = -scale * rows[i].residual_m;
-  }
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  Vector6d step = Vector6d::Zero();
-  for (Eigen::Index i = 0; i < svd.singularValues().size(); ++i) {
-    const double value = svd.singularValues()[i];
-    if (value * value >= threshold) step += svd.matrixU().col(i).dot(b) / value * svd.matrixV().col(i);
   }
   return step;
 }
@@ -110,12 +92,12 @@ Vector6d mitigated_step(Mitigation mitigation, const std::vector<MatchRow>& rows
   switch (mitigation) {
     case Mitigation::kNone:
       return by_eigenpairs(problem, [](double, double along, const Vector6d&) { return along; });
+    // The whitened Jacobian's singular values are the roots of these eigenvalues: truncating drops the same directions.
+    case Mitigation::kTruncatedSvd:
     case Mitigation::kRemapping:
       return by_eigenpairs(problem, [&](double value, double along, const Vector6d&) {
         return value >= context.threshold ? along : 0.0;
       });
-    case Mitigation::kTruncatedSvd:
-      return truncated_svd_step(rows, context.threshold);
     case Mitigation::kTikhonov:
       return by_eigenpairs(problem, [&](double value, double along, const Vector6d&) {
         return value >= context.threshold ? along : along * value / (value + kStiffness);

@@ -9,8 +9,9 @@ trap 'rm -rf "$scratch"' EXIT
 cd "$scratch"
 
 cat >base.yaml <<'YAML'
-world: {scene: garage}
-motion: {rest_s: 0.5, smoothing_s: 0.5, waypoints: [[6, 4.75, 1.5], [7, 4.75, 1.5]]}
+world: {scene: conference_room}
+rig: {camera: {rate_hz: 10}}
+motion: {rest_s: 0.5, smoothing_s: 0.5, waypoints: [[0, 0, 1.5], [1, 0, 1.5]]}
 YAML
 cat >suite.yaml <<'YAML'
 scenarios: {bright: base.yaml, dark: {scenario: base.yaml, set: {world.light.lux: 0.01}}}

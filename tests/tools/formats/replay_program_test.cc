@@ -7,7 +7,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "tests/scenarios/temporary_directory.h"
+#include "tests/tools/program_fixture.h"
 #include "tools/evaluation/pairing.h"
 #include "tools/formats/tum.h"
 
@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The program itself, on two metres of a garage.
-class ReplayProgram : public ::testing::Test {
+class ReplayProgram : public ProgramFixture {
  protected:
   ReplayProgram() {
     directory_.write("walk.yaml",
@@ -26,15 +26,6 @@ class ReplayProgram : public ::testing::Test {
                      "rig: {camera: {width: 160, height: 120}}\n");
   }
 
-  int call(const std::string& arguments) const {
-    const std::string command =
-        "cd '" + directory_.path().string() + "' && " PLUMBLINE_PROGRAM " " + arguments + " >said.txt 2>&1";
-    return WEXITSTATUS(std::system(command.c_str()));
-  }
-  std::string content(const std::string& name) const {
-    std::ifstream file(directory_.path() / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
   double worst_difference_m(const std::string& one, const std::string& other) const {
     const auto pairs = pair_poses(read_tum(directory_.path() / one / "estimate.tum"),
                                   read_tum(directory_.path() / other / "estimate.tum"));
@@ -50,8 +41,6 @@ class ReplayProgram : public ::testing::Test {
     EXPECT_EQ(call("replay data --format " + format + " --out replayed"), 0) << content("said.txt");
     return worst_difference_m("direct", "replayed");
   }
-
-  TemporaryDirectory directory_;
 };
 
 TEST_F(ReplayProgram, ReplayingAnExportGivesTheDirectRun) {

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "tests/scenarios/temporary_directory.h"
+#include "tests/tools/program_fixture.h"
 #include "tools/formats/tum.h"
 
 namespace plumbline {
@@ -16,25 +16,9 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
 /// The program itself, with the shipped examples and with things that are no estimators, over a metre.
-class OutsideExamples : public ::testing::Test {
+class OutsideExamples : public ProgramFixture {
  protected:
-  OutsideExamples() {
-    directory_.write("base.yaml",
-                     "world: {scene: garage}\n"
-                     "motion: {rest_s: 1, smoothing_s: 0.5, waypoints: [[6, 4.75, 1.5], [7, 4.75, 1.5]]}\n");
-  }
-
-  int call(const std::string& arguments) const {
-    const std::string command =
-        "cd '" + directory_.path().string() + "' && " PLUMBLINE_PROGRAM " " + arguments + " >said.txt 2>&1";
-    return WEXITSTATUS(std::system(command.c_str()));
-  }
-  std::string content(const std::string& name) const {
-    std::ifstream file(directory_.path() / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-
-  TemporaryDirectory directory_;
+  OutsideExamples() { directory_.write("base.yaml", kShortScenario); }
 };
 
 TEST_F(OutsideExamples, TakePartInASweepLikeOurOwn) {

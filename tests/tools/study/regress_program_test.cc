@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tests/tools/study/program_fixture.h"
+#include "tests/tools/program_fixture.h"
 #include "tools/study/baseline.h"
 
 namespace plumbline {

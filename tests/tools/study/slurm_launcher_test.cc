@@ -12,7 +12,7 @@
 #include <list>
 #include <thread>
 
-#include "tests/scenarios/temporary_directory.h"
+#include "tests/tools/program_fixture.h"
 #include "tools/study/child_process.h"
 
 namespace plumbline {
@@ -112,28 +112,13 @@ class Cluster {
   std::list<ChildProcess> daemons_;
 };
 
-class SlurmLauncher : public ::testing::Test {
+class SlurmLauncher : public ProgramFixture {
  protected:
   SlurmLauncher() {
-    directory_.write("base.yaml",
-                     "world: {scene: garage}\n"
-                     "motion: {rest_s: 0.2, smoothing_s: 0.5, waypoints: [[6, 4.75, 1.5], [6.3, 4.75, 1.5]]}\n");
+    directory_.write("base.yaml", kShortScenario);
     // One estimator that works and one that fails at once, which costs little and must fail alike everywhere.
     directory_.write("sweep.yaml", "scenario: base.yaml\nestimators: [exec:/bin/false, imu]\n");
   }
-
-  /// @param variable  "PATH=..." for the program alone
-  int call(const std::string& arguments, const std::string& variable = "") const {
-    const std::string command = "cd '" + directory_.path().string() + "' && " + variable + " " PLUMBLINE_PROGRAM " " +
-                                arguments + " >said.txt 2>&1";
-    return WEXITSTATUS(std::system(command.c_str()));
-  }
-  std::string content(const std::string& name) const {
-    std::ifstream file(directory_.path() / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-
-  TemporaryDirectory directory_;
 };
 
 TEST_F(SlurmLauncher, AJobArrayMakesTheTableThatWeMakeHere) {
