@@ -211,7 +211,7 @@ SceneDescription build_garage(const SceneValues& values, std::uint64_t world_see
 SceneInfo garage_scene() {
   return {.name = "garage",
           .summary = "underground garage: halls with pillars and parked things, behind one another",
-          .parameters = {{"hall_count", 3, 1, 6, "halls in a row along +x", true},
+          .parameters = {{"hall_count", 3, 1, 12, "halls in a row along +x", true},
                          {"hall_length_m", 36, 24, 60, "length of each hall along x"},
                          {"hall_width_m", 24, 24, 40, "width of each hall along y"},
                          {"ceiling_m", 3.4, 3.0, 6.0, "clear height"},

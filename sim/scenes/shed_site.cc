@@ -165,19 +165,32 @@ Route route_through(const std::string& name, const Ground& ground, const std::ve
   return route;
 }
 
+/// A closed way's corners cut off 4 m before and behind them: wide enough for a utility vehicle, which needs 3.4 m.
+std::vector<Vector3d> with_cut_corners(const std::vector<Vector3d>& corners) {
+  std::vector<Vector3d> cut;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vector3d& corner = corners[i];
+    const Vector3d& before = corners[(i + corners.size() - 1) % corners.size()];
+    const Vector3d& behind = corners[(i + 1) % corners.size()];
+    cut.push_back(corner + 4.0 * (before - corner).normalized());
+    cut.push_back(corner + 4.0 * (behind - corner).normalized());
+  }
+  return cut;
+}
+
 void add_routes(Outdoors& outdoors, const Ground& ground) {
   std::vector<Route>& routes = outdoors.routes;
   const double far = kSecondShed_m + kShedLength_m;
   // Through both sheds, around the second, and round the whole yard.
   routes.push_back(route_through("walk", ground,
-                                 {{-20.0, 0.0, 0.0},
-                                  {far + 20.0, 0.0, 0.0},
-                                  {far + 20.0, 20.0, 0.0},
-                                  {-24.0, 20.0, 0.0},
-                                  {-24.0, -22.0, 0.0},
-                                  {100.0, -22.0, 0.0},
-                                  {100.0, -14.0, 0.0},
-                                  {-20.0, -14.0, 0.0}},
+                                 with_cut_corners({{-20.0, 0.0, 0.0},
+                                                   {far + 20.0, 0.0, 0.0},
+                                                   {far + 20.0, 20.0, 0.0},
+                                                   {-24.0, 20.0, 0.0},
+                                                   {-24.0, -24.0, 0.0},
+                                                   {100.0, -24.0, 0.0},
+                                                   {100.0, -14.0, 0.0},
+                                                   {-20.0, -14.0, 0.0}}),
                                  true));
   constexpr double kLow_m = 2.0;
   routes.push_back(flown(route_through("shed_mission", ground,
