@@ -90,21 +90,22 @@ void add_surroundings(Outdoors& outdoors, const Ground& ground, double half_leng
   }
 }
 
+/// Up one alley and down the next but one, as vehicles go: they could not turn into the next.
 Route tour_of(const Ground& ground, double half_length) {
   Route tour{.name = "tour", .points = {}, .closed = true};
   const auto add = [&](double x, double y) { tour.points.emplace_back(x, y, height_on(ground, x, y)); };
   const double end = half_length + 3.0;
   const int steps = static_cast<int>(std::ceil(2.0 * end / 1.25));
-  const double turn = 0.5 * kRowSpacing_m;
-  for (int i = 0; i < steps; ++i) add(-end + 2.0 * end * i / steps, 0.0);
-  for (int i = 0; i < 6; ++i) {
-    const double angle = std::numbers::pi * i / 6.0;
-    add(end + turn * std::sin(angle), turn - turn * std::cos(angle));
+  const double turn = kRowSpacing_m;
+  for (int i = 0; i < steps; ++i) add(-end + 2.0 * end * i / steps, -turn);
+  for (int i = 0; i < 12; ++i) {
+    const double angle = std::numbers::pi * i / 12.0;
+    add(end + turn * std::sin(angle), -turn * std::cos(angle));
   }
-  for (int i = 0; i < steps; ++i) add(end - 2.0 * end * i / steps, kRowSpacing_m);
-  for (int i = 0; i < 6; ++i) {
-    const double angle = std::numbers::pi * i / 6.0;
-    add(-end - turn * std::sin(angle), turn + turn * std::cos(angle));
+  for (int i = 0; i < steps; ++i) add(end - 2.0 * end * i / steps, turn);
+  for (int i = 0; i < 12; ++i) {
+    const double angle = std::numbers::pi * i / 12.0;
+    add(-end - turn * std::sin(angle), turn * std::cos(angle));
   }
   return tour;
 }

@@ -165,15 +165,15 @@ Route route_through(const std::string& name, const Ground& ground, const std::ve
   return route;
 }
 
-/// A closed way's corners cut off 4 m before and behind them: wide enough for a utility vehicle, which needs 3.4 m.
+/// A closed way's corners cut off 5 m before and behind them: wide enough for a utility vehicle, which needs 3.4 m.
 std::vector<Vector3d> with_cut_corners(const std::vector<Vector3d>& corners) {
   std::vector<Vector3d> cut;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vector3d& corner = corners[i];
     const Vector3d& before = corners[(i + corners.size() - 1) % corners.size()];
     const Vector3d& behind = corners[(i + 1) % corners.size()];
-    cut.push_back(corner + 4.0 * (before - corner).normalized());
-    cut.push_back(corner + 4.0 * (behind - corner).normalized());
+    cut.push_back(corner + 5.0 * (before - corner).normalized());
+    cut.push_back(corner + 5.0 * (behind - corner).normalized());
   }
   return cut;
 }
@@ -187,8 +187,8 @@ void add_routes(Outdoors& outdoors, const Ground& ground) {
                                                    {far + 20.0, 0.0, 0.0},
                                                    {far + 20.0, 20.0, 0.0},
                                                    {-24.0, 20.0, 0.0},
-                                                   {-24.0, -24.0, 0.0},
-                                                   {100.0, -24.0, 0.0},
+                                                   {-24.0, -25.0, 0.0},
+                                                   {100.0, -25.0, 0.0},
                                                    {100.0, -14.0, 0.0},
                                                    {-20.0, -14.0, 0.0}}),
                                  true));

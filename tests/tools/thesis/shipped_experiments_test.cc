@@ -5,6 +5,7 @@
 
 #include "scenarios/scenario.h"
 #include "scenarios/scenario_files.h"
+#include "tests/scenarios/body_trajectory.h"
 #include "tools/thesis/results.h"
 
 namespace plumbline {
@@ -41,6 +42,19 @@ TEST(ThesisScenarios, LoadAndSetNoSettingOfTheEstimator) {
       ASSERT_TRUE(below.is_map()) << section;
       for (const auto& [key, value] : below.entries) EXPECT_TRUE(is_switch(section, key)) << section << '.' << key;
     }
+  }
+}
+
+/// A file may load and yet ask for a way that is too short or turns too tightly for its vehicle.
+TEST(ThesisScenarios, HaveWaysThatTheirVehiclesCanGo) {
+  std::vector<fs::path> paths = thesis_scenarios();
+  paths.push_back(kThesis.parent_path() / "tilt_walk.yaml");
+  for (const fs::path& path : paths) {
+    SCOPED_TRACE(path.filename());
+    const Scenario scenario = load_scenario(path, {}, {});
+    const std::string& scene = scenario.world.scene;
+    if (scene == "street" || scene == "campus" || scene == "highway") continue;  // kilometres take minutes to drive
+    EXPECT_GT(body_trajectory(scenario).end_ns(), 10'000'000'000);
   }
 }
 
