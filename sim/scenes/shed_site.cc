@@ -165,17 +165,21 @@ Route route_through(const std::string& name, const Ground& ground, const std::ve
   return route;
 }
 
-/// A closed way's corners cut off 5 m before and behind them: wide enough for a utility vehicle, which needs 3.4 m.
-std::vector<Vector3d> with_cut_corners(const std::vector<Vector3d>& corners) {
-  std::vector<Vector3d> cut;
+/// A closed way's right-angled corners as arcs of 5 m: a utility vehicle needs 3.4 m.
+std::vector<Vector3d> with_round_corners(const std::vector<Vector3d>& corners) {
+  constexpr double kRadius_m = 5.0;
+  constexpr int kSteps = 5;
+  std::vector<Vector3d> round;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vector3d& corner = corners[i];
-    const Vector3d& before = corners[(i + corners.size() - 1) % corners.size()];
-    const Vector3d& behind = corners[(i + 1) % corners.size()];
-    cut.push_back(corner + 5.0 * (before - corner).normalized());
-    cut.push_back(corner + 5.0 * (behind - corner).normalized());
+    const Vector3d back = (corners[(i + corners.size() - 1) % corners.size()] - corner).normalized();
+    const Vector3d on = (corners[(i + 1) % corners.size()] - corner).normalized();
+    for (int k = 0; k <= kSteps; ++k) {
+      const double angle = 0.5 * std::numbers::pi * k / kSteps;
+      round.push_back(corner + kRadius_m * ((1.0 - std::cos(angle)) * on + (1.0 - std::sin(angle)) * back));
+    }
   }
-  return cut;
+  return round;
 }
 
 void add_routes(Outdoors& outdoors, const Ground& ground) {
@@ -183,14 +187,14 @@ void add_routes(Outdoors& outdoors, const Ground& ground) {
   const double far = kSecondShed_m + kShedLength_m;
   // Through both sheds, around the second, and round the whole yard.
   routes.push_back(route_through("walk", ground,
-                                 with_cut_corners({{-20.0, 0.0, 0.0},
-                                                   {far + 20.0, 0.0, 0.0},
-                                                   {far + 20.0, 20.0, 0.0},
-                                                   {-24.0, 20.0, 0.0},
-                                                   {-24.0, -25.0, 0.0},
-                                                   {100.0, -25.0, 0.0},
-                                                   {100.0, -14.0, 0.0},
-                                                   {-20.0, -14.0, 0.0}}),
+                                 with_round_corners({{-20.0, 0.0, 0.0},
+                                                     {far + 20.0, 0.0, 0.0},
+                                                     {far + 20.0, 20.0, 0.0},
+                                                     {-24.0, 20.0, 0.0},
+                                                     {-24.0, -25.0, 0.0},
+                                                     {100.0, -25.0, 0.0},
+                                                     {100.0, -14.0, 0.0},
+                                                     {-20.0, -14.0, 0.0}}),
                                  true));
   constexpr double kLow_m = 2.0;
   routes.push_back(flown(route_through("shed_mission", ground,
