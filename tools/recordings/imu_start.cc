@@ -137,7 +137,7 @@ CheckRows check_imu(const fs::path& folder) {
   rows.push_back({name, "static initialisation", "tilt ≤ 1°",
                   fixed_text(tilt_deg, 2) + "°, gyro bias " + fixed_text(gyro_bias_deg.x(), 2) + ", " +
                       fixed_text(gyro_bias_deg.y(), 2) + ", " + fixed_text(gyro_bias_deg.z(), 2) + " °/s",
-                  tilt_deg <= kTilt_deg});
+                  tilt_deg <= kTilt_deg && start->velocity_sigma < 1.0});
   const PropagationErrors errors = propagate(recording, with_true_tilt(*start, truth));
   if (errors.position_m.empty()) return rows;
   const double median_m = *quantile(errors.position_m, 0.5);
