@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimator/geometry/so3.h"
+
 namespace plumbline {
 namespace {
 constexpr double kRestWindow_s = 1.0;  // averages a consumer gyro's bias to 0.02 deg/s
@@ -20,6 +22,7 @@ constexpr double kManoeuvreTilt = 0.1;    // [rad], while walking the mean force
 constexpr double kTravelVelocity = 5.0;   // [m/s]
 constexpr double kImplausibleBias = 5.0;  // turn-on sigmas; more than that about the vertical is a turn
 constexpr double kSurprise = 3.0;         // sigmas
+constexpr double kStillStray = 5.0;       // times the noise's own walk: a hand strays 12 times as far, an idle engine 3
 constexpr double kRestSigma = 1e-4;       // [rad, m] a sample
 constexpr double kDensityMargin = 2.0;    // of a single sample: rounding to the unit's steps adds to its noise
 
@@ -36,6 +39,11 @@ double range_of_walk(const std::vector<ImuSample>& samples, const Eigen::Vector3
     high = high.cwiseMax(walk);
   }
   return (high - low).maxCoeff();
+}
+
+/// Level, with no heading, where `up` is in B.
+Eigen::Quaterniond level(const Eigen::Vector3d& up) {
+  return rotation_from_rpy({std::atan2(up.y(), up.z()), std::atan2(-up.x(), std::hypot(up.y(), up.z())), 0.0});
 }
 
 }  // namespace
@@ -56,34 +64,43 @@ std::optional<InitialState> Initializer::add(const ImuSample& sample) {
 
   InitialState start;
   start.state.stamp_ns = sample.stamp_ns;
+  start.watched_s = elapsed;
   start.state.world_from_body = attitude();
   if (manoeuvres) {
     start.tilt_sigma = kManoeuvreTilt;
     start.gyro_bias_covariance.diagonal().setConstant(squared(noise_.gyro_turn_on_sigma));
     start.velocity_sigma = kTravelVelocity;
+    start.state.world_from_body = attitude_now(start.state.gyro_bias);
     return start;
   }
   const bool at_rest = strayed.velocity < kRestStray;
-  // Between two random moments of a swing the body turns by half its range, root mean square.
-  find_gyro_bias(std::hypot(noise_.gyro_density / std::sqrt(elapsed), 0.5 * strayed.angle / elapsed), at_rest, start);
+  find_gyro_bias(strayed, at_rest, start);
   // Only the length of the mean force is known to be gravity's; its direction is shared with the attitude.
   start.state.accel_bias = mean_force_ * (1.0 - kStandardGravity / mean_force_.norm());
   const double force_sigma = std::hypot(noise_.accel_density / std::sqrt(elapsed), 0.5 * strayed.velocity / elapsed);
   start.tilt_sigma = std::hypot(force_sigma / kStandardGravity, at_rest ? 0.0 : kSteadyTilt);
   start.velocity_sigma = at_rest ? std::hypot(kRestVelocity, strayed.velocity) : kTravelVelocity;
+  start.state.world_from_body = attitude_now(start.state.gyro_bias);
   return start;
 }
 
 /// The mean rate as a measurement of the bias, weighed against what the data sheet says of it. Data sheets are beaten
-/// by single units, so a mean that they cannot explain widens the expectation.
-void Initializer::find_gyro_bias(double rate_sigma, bool at_rest, InitialState& start) const {
+/// by single units, so a mean that they cannot explain widens the expectation, if nothing moves; in a hand it is a
+/// turn.
+void Initializer::find_gyro_bias(const Excursion& strayed, bool at_rest, InitialState& start) const {
+  const double elapsed = static_cast<double>(samples_.size()) / rate_hz_;
+  const double noise_sigma = noise_.gyro_density / std::sqrt(elapsed);
+  // Between two random moments of a swing the body turns by half its range, root mean square.
+  const double rate_sigma = std::hypot(noise_sigma, 0.5 * strayed.angle / elapsed);
+  const bool still = strayed.angle < kStillStray * noise_sigma * elapsed;
   const Eigen::Matrix3d body_from_world = start.state.world_from_body.rotation.conjugate().toRotationMatrix();
   const Eigen::Vector3d mean = body_from_world.transpose() * mean_rate_;
   Eigen::Vector3d bias, variance;
   for (int i = 0; i < 3; ++i) {
     const bool surprises = std::abs(mean[i]) > kSurprise * std::hypot(noise_.gyro_turn_on_sigma, rate_sigma);
     const double expected = surprises ? std::abs(mean[i]) : noise_.gyro_turn_on_sigma;
-    const bool turns = !at_rest && i == 2 && std::abs(mean[i]) > kImplausibleBias * noise_.gyro_turn_on_sigma;
+    const bool turns = (surprises && !still) ||
+                       (!at_rest && i == 2 && std::abs(mean[i]) > kImplausibleBias * noise_.gyro_turn_on_sigma);
     const double weight = turns ? 0.0 : squared(expected) / (squared(expected) + squared(rate_sigma));
     bias[i] = weight * mean[i];
     variance[i] = turns ? squared(noise_.gyro_turn_on_sigma) : weight * squared(rate_sigma);
@@ -115,10 +132,23 @@ Matrix6d Initializer::increment_covariance() const {
 
 Pose Initializer::attitude() const {
   if (mean_force_.norm() < 1e-3) return {};
-  const Eigen::Vector3d up = mean_force_.normalized();
-  const double roll = std::atan2(up.y(), up.z());
-  const double pitch = std::atan2(-up.x(), std::hypot(up.y(), up.z()));
-  return {rotation_from_rpy({roll, pitch, 0.0}), Eigen::Vector3d::Zero()};
+  return {level(mean_force_.normalized()), Eigen::Vector3d::Zero()};
+}
+
+/// A hand turns by degrees within a second: forces are averaged in the newest B, and the heading has changed since the
+/// first sample.
+Pose Initializer::attitude_now(const Eigen::Vector3d& gyro_bias) const {
+  Eigen::Quaterniond now_from_then = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  for (auto sample = samples_.rbegin(); sample != samples_.rend(); ++sample) {
+    force += now_from_then * sample->specific_force;
+    now_from_then = now_from_then * exp_so3((gyro_bias - sample->angular_rate) / rate_hz_);
+  }
+  if (force.norm() < 1e-3 * static_cast<double>(samples_.size())) return {};
+  const Eigen::Quaterniond level_from_now = level(force.normalized());
+  const Eigen::Vector3d ahead_at_first = level_from_now * now_from_then * Eigen::Vector3d::UnitX();
+  const Eigen::AngleAxisd undone(-std::atan2(ahead_at_first.y(), ahead_at_first.x()), Eigen::Vector3d::UnitZ());
+  return {undone * level_from_now, Eigen::Vector3d::Zero()};
 }
 
 }  // namespace plumbline

@@ -14,6 +14,7 @@ struct InitialState {
   double tilt_sigma = 0.0;                                         ///< [rad], given a perfect accelerometer
   Eigen::Matrix3d gyro_bias_covariance = Eigen::Matrix3d::Zero();  ///< [rad^2/s^2]
   double velocity_sigma = 0.0;                                     ///< [m/s]
+  double watched_s = 0.0;  ///< the heading was integrated for so long with the bias as it is known now
 };
 
 /// Watches the first samples, and judges by how far the readings, integrated, stray from their mean's line:
@@ -26,7 +27,7 @@ class Initializer {
  public:
   explicit Initializer(const Calibration& calibration);
 
-  /// Empty until enough is known.
+  /// Empty until enough is known. The world's x axis is the heading of the first sample.
   std::optional<InitialState> add(const ImuSample& sample);
   /// Level attitude by what has been seen so far, at the origin; for outputs before the start.
   Pose attitude() const;
@@ -42,7 +43,8 @@ class Initializer {
   };
   Excursion excursion() const;
   bool manoeuvring(const Excursion& excursion) const;
-  void find_gyro_bias(double rate_sigma, bool at_rest, InitialState& start) const;
+  void find_gyro_bias(const Excursion& strayed, bool at_rest, InitialState& start) const;
+  Pose attitude_now(const Eigen::Vector3d& gyro_bias) const;
 
   ImuNoise noise_;
   double rate_hz_;

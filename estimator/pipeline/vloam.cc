@@ -11,6 +11,7 @@ namespace plumbline {
 namespace {
 
 constexpr std::int64_t kTrackLength_ns = MessageGate::kLongestDelay_ns + SweepAssembler::kLongest_ns;
+constexpr std::int64_t kTurnTrackLength_ns = 3'000'000'000;  // longer than a key-frame lasts while its tracks do
 constexpr std::int64_t kIncrementWindow_ns = 1'000'000'000;
 constexpr std::int64_t kMaxImuGap_ns = 500'000'000;
 
@@ -79,6 +80,8 @@ void Vloam::start_with(const InitialState& start, const ImuSample& sample) {
   if (!config_.imu_enabled) initial.state.accel_bias = Eigen::Vector3d(0.0, 0.0, -kStandardGravity);
   filter_.emplace(initial, calibration_.imu, config_.remapping);
   track_.push(sample.stamp_ns, initial.state.world_from_body);
+  turn_track_.push(sample.stamp_ns, {});
+  keyframe_ns_ = sample.stamp_ns;
   past_ns_ = sample.stamp_ns;
   gate_.start_at(sample.stamp_ns);
 }
@@ -86,9 +89,13 @@ void Vloam::start_with(const InitialState& start, const ImuSample& sample) {
 void Vloam::advance_to(std::int64_t stamp_ns, const InertialSegment& segment) {
   const std::int64_t now_ns = filter_->state().stamp_ns;
   if (stamp_ns <= now_ns) return;
+  const Eigen::Quaterniond before = filter_->state().world_from_body.rotation;
   filter_->predict(segment.part(now_ns, stamp_ns));
   track_.push(stamp_ns, filter_->state().world_from_body);
   track_.forget_before(stamp_ns - kTrackLength_ns);
+  turned_ = (turned_ * before.conjugate() * filter_->state().world_from_body.rotation).normalized();
+  turn_track_.push(stamp_ns, {turned_, Eigen::Vector3d::Zero()});
+  turn_track_.forget_before(stamp_ns - kTurnTrackLength_ns);
 }
 
 template <typename Payload>
@@ -135,8 +142,13 @@ void Vloam::see(const Frame& frame) {
 void Vloam::start_keyframe_when_due(std::int64_t image_ns) {
   if (!vision_.wants_keyframe()) return;
   const Pose world_from_body = track_.at(image_ns);
+  // Without an IMU the camera's own word is all there is.
+  const Eigen::Quaterniond turn =
+      config_.imu_enabled ? turn_track_.at(keyframe_ns_).rotation.conjugate() * turn_track_.at(image_ns).rotation
+                          : filter_->world_from_keyframe().rotation.conjugate() * world_from_body.rotation;
   filter_->set_keyframe(world_from_body);
-  vision_.start_keyframe(world_from_body);
+  vision_.start_keyframe(world_from_body, turn);
+  keyframe_ns_ = image_ns;
 }
 
 void Vloam::handle(const DepthFrame& frame) {
@@ -202,7 +214,7 @@ void Vloam::refine_with_scan(const LidarScan& scan, const std::vector<Eigen::Vec
   const Eigen::Vector3d step_in_world = world_from_body.translation - last_scan_position_;
   path_m_ += step_in_world.norm();
   last_scan_position_ = world_from_body.translation;
-  matcher_.insert(features, world_from_body, path_m_);
+  matcher_.insert(features, filter_->map_from_body(), path_m_);
   renew_map(world_from_body.rotation.conjugate() * step_in_world);
   report(scan.end_ns, Module::kLidar, solved, predicted, 0.0);
 }

@@ -74,7 +74,10 @@ class Vloam final : public Estimator {
   SweepAssembler sweeps_;
 
   ImuSample last_sample_;
-  PoseTrack track_;                          ///< world_from_body over the last sweep or so
+  PoseTrack track_;                                             ///< world_from_body over the last sweep or so
+  Eigen::Quaterniond turned_ = Eigen::Quaterniond::Identity();  ///< since the start, by the gyroscope alone
+  PoseTrack turn_track_;                                        ///< of turned_
+  std::int64_t keyframe_ns_ = 0;
   std::optional<std::int64_t> followed_ns_;  ///< stamp of the newest image, while no scan has solved its rows
   double path_m_ = 0.0;
   bool has_map_ = false;

@@ -17,6 +17,7 @@ constexpr double kAnchorMaxScaleChange = 0.08;
 constexpr double kAnchorMaxRoll = 0.1;      // [rad]
 constexpr double kDepthImagePause_s = 0.1;  // between depth images used: the map keeps seconds of them
 constexpr double kLeastShareOfSigma = 0.5;
+constexpr std::int64_t kRiddenMemory_ns = 20'000'000'000;
 
 DepthMapConfig depth_config(const Calibration& calibration, const FeatureSetConfig& config) {
   DepthMapConfig depth;
@@ -111,6 +112,16 @@ void FeatureSet::judge(const std::vector<double>& weights) {
   std::erase_if(features, [](const Feature& f) { return f.outlier_frames >= kOutlierFramesToDrop; });
 }
 
+void FeatureSet::drop_riders(const Pose& reference_from_body, std::int64_t newest_ns) {
+  ridden_.forget_before(newest_ns - kRiddenMemory_ns);
+  const CameraMotion camera_now = motion(reference_from_body);
+  std::erase_if(features, [&](Feature& f) {
+    f.on_rig.add(evidence_of_riding(camera_now, camera_, f.sighting));
+    if (f.on_rig.rides()) ridden_.add(newest_ns, f.pixel);
+    return f.on_rig.rides();
+  });
+}
+
 void FeatureSet::renew_anchor(const Pose& reference_from_body) {
   if (features.empty()) return;
   const CameraMotion camera_now = motion(reference_from_body);
@@ -152,8 +163,9 @@ void FeatureSet::make_newest_the_reference(const Pose& reference_from_body) {
 
 void FeatureSet::refill() {
   std::vector<FeatureSource::Seen> present;
-  present.reserve(features.size());
+  present.reserve(features.size() + ridden_.pixels().size());
   for (const Feature& f : features) present.push_back({f.id, f.pixel});
+  for (const Eigen::Vector2f& pixel : ridden_.pixels()) present.push_back({FeatureSource::kNoId, pixel});
   for (const FeatureSource::Fresh& fresh : source_.find_new(present, config_.corners)) {
     Feature f;
     f.id = fresh.id;

@@ -10,6 +10,7 @@
 #include "estimator/vision/depth_map.h"
 #include "estimator/vision/feature_source.h"
 #include "estimator/vision/motion_constraints.h"
+#include "estimator/vision/rig_watch.h"
 #include "estimator/vision/stereo_depth.h"
 
 namespace plumbline {
@@ -31,6 +32,7 @@ struct Feature {
   Eigen::Matrix2d whitening = Eigen::Matrix2d::Identity();  ///< of its reprojection rows, else unused
   bool inlier = true;
   int outlier_frames = 0;  ///< in a row
+  RidingEvidence on_rig;
 };
 
 struct FeatureSetConfig {
@@ -56,6 +58,9 @@ class FeatureSet {
   void linearize(const Pose& reference_from_body, ResidualRows& rows) const;
   /// Notes inliers and drops features that stay outliers: things that move, wrong depths, tracks gone astray.
   void judge(const std::vector<double>& weights);
+  /// Drops features that ride on the rig, and keeps new ones from their places for a while.
+  /// @param reference_from_body  at the newest image; its rotation had better not come from these features
+  void drop_riders(const Pose& reference_from_body, std::int64_t newest_ns);
   /// Makes the newest image the anchor where scale or roll have changed too much for patches to look alike.
   void renew_anchor(const Pose& reference_from_body);
   /// Makes the newest image the anchor of all patches.
@@ -105,6 +110,7 @@ class FeatureSet {
   std::vector<FurtherCamera> further_cameras_;
   FeatureSetConfig config_;
   FeatureSource source_;
+  RiddenPlaces ridden_;
   DepthMap depth_map_;
   std::optional<std::int64_t> depth_image_ns_;  ///< of the last one used
   std::optional<StereoDepth> stereo_;           ///< made when the first frame of a second grey camera comes

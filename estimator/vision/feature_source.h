@@ -23,9 +23,10 @@ class FeatureSource {
     Eigen::Vector2f anchor_pixel = Eigen::Vector2f::Zero();  ///< in the image that anchor_here() kept
     Eigen::Vector2f predicted = Eigen::Vector2f::Zero();     ///< in the newest image
   };
-  /// A feature as the newest image shows it.
+  static constexpr std::int64_t kNoId = -1;
+  /// A feature as the newest image shows it, or (without identity) a place that new ones have to keep away from.
   struct Seen {
-    std::int64_t id = 0;
+    std::int64_t id = kNoId;
     Eigen::Vector2f pixel = Eigen::Vector2f::Zero();
   };
   struct Fresh {

@@ -176,6 +176,7 @@ SolveResult FrameToFrame::Impl::solve_motion(const Pose& predicted) const {
 
 void FrameToFrame::Impl::accept(const SolveResult& solved) {
   set.judge(solved.weights);
+  set.drop_riders(solved.pose, newest_ns);
   set.renew_anchor(solved.pose);
   velocity << log_so3(solved.pose.rotation), solved.pose.translation;
   velocity /= seconds_between(reference_ns, newest_ns);

@@ -25,14 +25,6 @@ ScaledPoint scaled_point(const CameraMotion& motion, const FeatureSighting& feat
   return h;
 }
 
-Eigen::Matrix<double, 2, 3> d_pixel_d_point(const CameraIntrinsics& camera, const Eigen::Vector3d& point) {
-  const double inverse_z = 1.0 / point.z();
-  Eigen::Matrix<double, 2, 3> d;
-  d << camera.fx * inverse_z, 0.0, -camera.fx * point.x() * inverse_z * inverse_z,  //
-      0.0, camera.fy * inverse_z, -camera.fy * point.y() * inverse_z * inverse_z;
-  return d;
-}
-
 /// The inverse square root of C = sigma^2 I + g g^T, g being the pixel shift of one sigma of inverse depth.
 Eigen::Matrix2d inverse_square_root(double pixel_sigma, const Eigen::Vector2d& g) {
   const double ratio = g.squaredNorm() / (pixel_sigma * pixel_sigma);
@@ -58,6 +50,14 @@ CameraMotion camera_motion(const Pose& keyframe_from_body, const Pose& body_from
 Eigen::Vector2d project(const CameraIntrinsics& camera, const Eigen::Vector3d& point_in_camera) {
   return {camera.fx * point_in_camera.x() / point_in_camera.z() + camera.cx,
           camera.fy * point_in_camera.y() / point_in_camera.z() + camera.cy};
+}
+
+Eigen::Matrix<double, 2, 3> d_pixel_d_point(const CameraIntrinsics& camera, const Eigen::Vector3d& point) {
+  const double inverse_z = 1.0 / point.z();
+  Eigen::Matrix<double, 2, 3> d;
+  d << camera.fx * inverse_z, 0.0, -camera.fx * point.x() * inverse_z * inverse_z,  //
+      0.0, camera.fy * inverse_z, -camera.fy * point.y() * inverse_z * inverse_z;
+  return d;
 }
 
 Eigen::Vector3d ray_through(const CameraIntrinsics& camera, const Eigen::Vector2d& pixel) {

@@ -47,7 +47,7 @@ struct VisualOdometry::Impl {
   SolveResult solve_motion(const PosePrior& prior) const;
 
   bool worn_out() const;
-  void carry_tracks_into_new_keyframe(const Pose& world_from_body);
+  void carry_tracks_into_new_keyframe(const Pose& world_from_body, const Eigen::Quaterniond& turn_by_gyroscope);
 
   VisionConfig config;
   bool remapping = true;
@@ -60,6 +60,7 @@ struct VisualOdometry::Impl {
   std::int64_t keyframe_ns = 0;
   std::size_t keyframe_features = 0;
   Pose keyframe_from_newest;  ///< the body's motion, as last solved
+  double turn_sigma = 0.0;    ///< of the prior's rotation across an axis [rad]
   bool solved = false;
 };
 
@@ -106,6 +107,7 @@ bool VisualOdometry::Impl::follow(const Frame& frame, const PosePrior& prior) {
   newest_ns = frame.stamp_ns;
   if (!world_from_keyframe) return false;
   set.track(prior.mean, keyframe_from_newest);
+  turn_sigma = std::sqrt(prior.covariance.topLeftCorner<3, 3>().trace() / 3.0);
   choose_rows(prior);
   keyframe_from_newest = prior.mean;
   return true;
@@ -146,10 +148,10 @@ bool VisualOdometry::wants_keyframe() const {
   return age_s >= m.config.keyframe_max_age_s || m.worn_out();
 }
 
-void VisualOdometry::start_keyframe(const Pose& world_from_body) {
+void VisualOdometry::start_keyframe(const Pose& world_from_body, const Eigen::Quaterniond& turn_by_gyroscope) {
   Impl& m = *impl_;
   if (!m.has_image) return;
-  if (m.world_from_keyframe) m.carry_tracks_into_new_keyframe(world_from_body);
+  if (m.world_from_keyframe) m.carry_tracks_into_new_keyframe(world_from_body, turn_by_gyroscope);
   m.set.refill();
   m.set.give_depth(world_from_body, m.newest_ns);
   m.set.anchor_here(Pose{});
@@ -192,12 +194,19 @@ bool VisualOdometry::Impl::worn_out() const {
 }
 
 /// Expresses the surviving tracks, and what the motion has taught about their depth, in the newest image.
-void VisualOdometry::Impl::carry_tracks_into_new_keyframe(const Pose& world_from_body) {
+void VisualOdometry::Impl::carry_tracks_into_new_keyframe(const Pose& world_from_body,
+                                                          const Eigen::Quaterniond& turn_by_gyroscope) {
   const Pose keyframe_from_body = world_from_keyframe->inverse() * world_from_body;
-  const CameraMotion motion = set.motion(keyframe_from_body);
+  // The solved rotation came from these very features: depths made with it would vote for it ever after.
+  const Pose by_gyroscope{turn_by_gyroscope, keyframe_from_body.translation};
+  set.drop_riders(by_gyroscope, newest_ns);
   std::erase_if(set.features, [](const Feature& f) { return !f.inlier; });
+  const CameraMotion motion = set.motion(by_gyroscope);
   for (Feature& f : set.features) {
-    if (const auto seen = triangulate(motion, set.camera(), f.sighting); solved && seen) {
+    // A turn's error moves the pixel as a track's own does.
+    FeatureSighting sighting = f.sighting;
+    sighting.pixel_sigma = std::hypot(sighting.pixel_sigma, set.camera().fx * turn_sigma);
+    if (const auto seen = triangulate(motion, set.camera(), sighting); solved && seen) {
       f.triangulated = fuse(f.triangulated, *seen);
     }
   }

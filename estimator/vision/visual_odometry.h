@@ -76,8 +76,10 @@ class VisualOdometry {
 
   /// Makes the newest image the key-frame: refills features per sub-region and gives them depth. Without a usable
   /// image it does nothing.
-  /// @param world_from_body  the estimate at the newest image, in the world of add_depth_points
-  void start_keyframe(const Pose& world_from_body);
+  /// @param world_from_body    the estimate at the newest image, in the world of add_depth_points
+  /// @param turn_by_gyroscope  last_keyframe_from_body as the gyroscope alone has it: what the camera says of rotation
+  ///                           may be the word of features on the rig's own body, which this tells from the world's
+  void start_keyframe(const Pose& world_from_body, const Eigen::Quaterniond& turn_by_gyroscope);
 
   std::vector<TrackedFeature> features() const;
 

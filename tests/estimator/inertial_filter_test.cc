@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "estimator/geometry/so3.h"
 #include "sensors/imu.h"
 #include "sim/random_stream.h"
 #include "tests/support/aggressive_motion.h"
@@ -171,8 +172,9 @@ TEST(InertialFilter, GravityHoldsTheAttitudeWhileTheMapBends) {
     }());
     filter.predict(segment_between(previous, sample));
     if (k % 20 != 0) continue;
-    // The map's content: what was inserted at the estimate, bent a little more. The body itself rests at the origin.
-    drift = 0.97 * drift + 0.03 * Pose{}.local(filter.state().world_from_body);
+    // The map's content: what was inserted where the map was thought to be, bent a little more. The body itself rests
+    // at the origin.
+    drift = 0.97 * drift + 0.03 * Pose{}.local(filter.map_from_body());
     drift[1] += 1e-4;
     SolveResult fix = pose_fix(Pose{}.retract(drift));
     fix.information *= 100.0;
@@ -181,6 +183,49 @@ TEST(InertialFilter, GravityHoldsTheAttitudeWhileTheMapBends) {
   }
   const double tilt = filter.state().world_from_body.rotation.angularDistance(Eigen::Quaterniond::Identity());
   EXPECT_LT(tilt, 0.03);
+}
+
+TEST(InertialFilter, RenewingTheMapMovesNothingInIt) {
+  // After a fix the estimate is corrected by more than the map's frame is: the two part. New content is put where the
+  // map's frame has the body, so that a wall that one scan has left and the next goes on with is one wall.
+  Flight run = run_with_fixes(1, 3.0);
+  InertialFilter& filter = run.filter;
+  filter.renew_map(1.0, 1e-4 * Matrix6d::Identity());
+  const Pose ahead = filter.map_from_body() * Pose{Eigen::Quaterniond::Identity(), {0.1, 0.0, 0.0}};
+  filter.update_pose(pose_fix(ahead), filter.map_from_body(), 1.0);
+  const Pose before = filter.map_from_body();
+  ASSERT_GT(before.local(filter.state().world_from_body).norm(), 1e-3);
+  filter.renew_map(0.5, Matrix6d::Zero());
+  EXPECT_LT(before.local(filter.map_from_body()).norm(), 1e-12);
+}
+
+TEST(InertialFilter, TheHeadingFollowsWhatTheStartDidNotKnowOfTheBias) {
+  // Watched for a second with a bias that was wrong by 0.004 rad/s, the heading is wrong by 0.004 rad. At rest in a
+  // known place the bias shows, and the heading with it.
+  constexpr double kBias = 0.004;
+  InitialState start;
+  start.tilt_sigma = 1e-3;
+  start.gyro_bias_covariance.diagonal().setConstant(kBias * kBias);
+  start.velocity_sigma = 0.01;
+  start.watched_s = 1.0;
+  start.state.world_from_body.rotation = exp_so3({0.0, 0.0, kBias});
+  InertialFilter filter(start, ImuNoise{}, true);
+  ImuSample sample;
+  sample.angular_rate = {0.0, 0.0, kBias};
+  sample.specific_force = {0.0, 0.0, kStandardGravity};
+  for (int k = 1; k <= 400; ++k) {
+    const ImuSample previous = sample;
+    sample.stamp_ns += 5'000'000;
+    filter.predict(segment_between(previous, sample));
+    if (k % 20 != 0) continue;
+    SolveResult at_rest = pose_fix(Pose{});
+    at_rest.information *= 100.0;
+    filter.update_keyframe_motion(at_rest, filter.world_from_keyframe().inverse() * filter.state().world_from_body,
+                                  1.0);
+  }
+  EXPECT_NEAR(filter.state().gyro_bias.z(), kBias, 0.1 * kBias);
+  // The key-frame was made at the start, and its heading is corrected, too.
+  EXPECT_LT(log_so3(filter.state().world_from_body.rotation).norm(), 0.2 * kBias);
 }
 
 TEST(InertialFilter, TheMotionSinceThePastPoseStartsCertainAndGrows) {

@@ -74,6 +74,24 @@ TEST(Initializer, AHandThatSwaysLeavesTheBiasUnsure) {
   EXPECT_LT(swaying.velocity_sigma, 0.1);
 }
 
+/// The world's x axis is where the first sample looked, so what the hand turns while it is watched is heading. The mean
+/// rate is beyond the data sheet's bias, but nothing is still: it is a turn.
+TEST(Initializer, AHandThatTurnsWhileWatchedHasTurned) {
+  constexpr double kTurn = 0.06;  // [rad] within the second, with a swing on top
+  const auto turn = [&](double t) {
+    Reading reading;
+    reading.rate.z() = kTurn + 0.003 * kTwoPi * 1.3 * std::cos(kTwoPi * 1.3 * t);
+    return reading;
+  };
+  const double truth = kTurn + 0.003 * std::sin(kTwoPi * 1.3);
+  const Eigen::Vector3d no_bias = Eigen::Vector3d::Zero();
+  const InitialState start = start_on(turn, no_bias);
+  const Eigen::Vector3d ahead = start.state.world_from_body.rotation * Eigen::Vector3d::UnitX();
+  const double sigma = start.watched_s * std::sqrt(start.gyro_bias_covariance(2, 2));
+  EXPECT_NEAR(std::atan2(ahead.y(), ahead.x()), truth, 2.0 * sigma);
+  EXPECT_LT(2.0 * sigma, 0.4 * kTurn);  // or the line above would pass whatever was said
+}
+
 /// Ten times the unit's noise at 40 Hz, as an idle engine or standing rotors make, moves the body by micrometres: it
 /// is no motion, and a bias far beyond the data sheet's is still found.
 TEST(Initializer, VibrationAtRestIsNoMotion) {

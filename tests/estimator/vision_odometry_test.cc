@@ -89,7 +89,7 @@ class Drive {
     estimate = keyframe * result.pose;
     true_keyframe_from_body = true_keyframe.inverse() * truth;
     if (odometry.wants_keyframe()) {
-      odometry.start_keyframe(estimate);
+      odometry.start_keyframe(estimate, (true_keyframe.inverse() * truth).rotation);
       keyframe = estimate;
       true_keyframe = truth;
     }
@@ -228,7 +228,7 @@ TEST(VisualOdometry, AnOddFrameIsAnOrdinaryResultWithNothingSolved) {
     EXPECT_EQ(result.spectrum.well_conditioned, 0);
     EXPECT_EQ(result.pose.translation, prior.mean.translation);
     EXPECT_FALSE(odometry.wants_keyframe());
-    odometry.start_keyframe(Pose{});
+    odometry.start_keyframe(Pose{}, Eigen::Quaterniond::Identity());
   }
   EXPECT_TRUE(odometry.features().empty());
 }
