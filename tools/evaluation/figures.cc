@@ -45,6 +45,22 @@ std::optional<double> finite(std::optional<double> value) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
+void append_localization(std::vector<Figure>& list, const LocalizationFigures& localization) {
+  const std::string prefix = "localization.";
+  list.push_back({prefix + "matches", static_cast<double>(localization.matches), true});
+  list.push_back({prefix + "share", finite(localization.share)});
+  list.push_back({prefix + "first_s", finite(localization.first_s)});
+  list.push_back({prefix + "error_median_m", finite(localization.error_median_m)});
+  list.push_back({prefix + "error_p75_m", finite(localization.error_p75_m)});
+  list.push_back({prefix + "error_max_m", finite(localization.error_max_m)});
+  list.push_back({prefix + "overlap_median", finite(localization.overlap_median)});
+  list.push_back({prefix + "close_share_median", finite(localization.close_share_median)});
+  list.push_back({prefix + "correction_median_m", finite(localization.correction_median_m)});
+  list.push_back({prefix + "iterations_median", finite(localization.iterations_median)});
+  list.push_back({prefix + "mean_ms", finite(localization.mean_ms)});
+  list.push_back({prefix + "ms_per_s", finite(localization.ms_per_s)});
+}
+
 std::optional<double> translation_of(const std::optional<RootMeanSquare>& error) {
   return error ? std::optional(error->translation_m) : std::nullopt;
 }
@@ -105,6 +121,7 @@ RunFigures run_figures(const RunRecord& record,
   figures.simulated_s = figures.trajectory.has_truth ? figures.trajectory.duration_s : duration_s(record.estimate);
   figures.map = map_error(record.map, figures.trajectory.drift_alignment.truth_from_estimate, distance_to_surface);
   figures.map_points = record.map.size();
+  figures.localization = localization_figures(record);
   figures.nees_mean = nees_mean(record.odometry, record.ground_truth);
   if (record.estimator_wall_s > 0.0) {
     figures.estimator_real_time_factor = figures.simulated_s / record.estimator_wall_s;
@@ -146,6 +163,7 @@ std::vector<Figure> figure_list(const RunFigures& figures) {
   list.push_back({"real_time_factor", finite(figures.real_time_factor)});
   list.push_back({"estimator_real_time_factor", finite(figures.estimator_real_time_factor)});
   list.push_back({"wall_s", finite(figures.wall_s)});
+  if (figures.localization) append_localization(list, *figures.localization);
   for (const Module module : kModules) {
     const auto found = figures.modules.find(module);
     append_module(list, std::string(to_string(module)),

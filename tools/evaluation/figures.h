@@ -9,6 +9,7 @@
 #include "scenarios/run_record.h"
 #include "tools/evaluation/alignment.h"
 #include "tools/evaluation/kitti.h"
+#include "tools/evaluation/localization_figures.h"
 #include "tools/evaluation/map_error.h"
 #include "tools/evaluation/module_figures.h"
 #include "tools/evaluation/progress.h"
@@ -49,8 +50,9 @@ struct RunFigures {
   std::size_t map_points = 0;
   std::optional<double> nees_mean;
   std::optional<double> estimator_real_time_factor;
-  std::optional<double> real_time_factor;  ///< filled in last, when the outputs are written
-  std::optional<double> wall_s;            ///< likewise
+  std::optional<double> real_time_factor;           ///< filled in last, when the outputs are written
+  std::optional<double> wall_s;                     ///< likewise
+  std::optional<LocalizationFigures> localization;  ///< with a prior map
   std::map<Module, ModuleFigures> modules;
   std::map<Module, MessageTally> messages;
 };
