@@ -52,8 +52,8 @@ std::string_view to_string(MapAgreement agreement);
 struct MapMatch {
   std::int64_t stamp_ns = 0;
   MapAgreement agreement = MapAgreement::kUndetermined;
-  double overlap = 0.0;       ///< share of the features with a surface of the map nearby
-  double close_share = 0.0;   ///< share of the features that lie on the map after the match
+  double overlap = 0.0;  ///< share of what is seen that the map has surfaces near
+  double support = 0.0;  ///< share of what the scans tell that the map bears out, in the direction where it is least
   double correction_m = 0.0;  ///< of the prediction
   double correction_rad = 0.0;
   int iterations = 0;

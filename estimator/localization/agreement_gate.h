@@ -22,8 +22,8 @@ struct OdometryDrift {
 struct MatchEvidence {
   Pose map_from_body;
   int well_conditioned = 0;
-  double overlap = 0.0;      ///< share of the features with a surface of the map nearby
-  double close_share = 0.0;  ///< share of the features that lie on the map
+  double overlap = 0.0;  ///< share of what is seen that the map has surfaces near
+  double support = 0.0;  ///< see map_support()
 };
 
 /// Decides which matches may move the estimate, and whether it is localized. Two matches in a row have to say the same

@@ -1,9 +1,10 @@
 #include "estimator/localization/map_localizer.h"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
-#include <cmath>
+#include <vector>
 
+#include "estimator/lidar/direction_sampling.h"
+#include "estimator/localization/map_support.h"
 #include "estimator/pipeline/module_health.h"
 
 namespace plumbline {
@@ -15,9 +16,6 @@ constexpr int kEdgeBudget = 400;
 // A step below these changes nothing that a map of centimetres could tell.
 constexpr double kRotationTolerance = 2e-4;
 constexpr double kTranslationTolerance = 2e-3;
-
-// Rows within this many sigma lie on the map; sigma is at least two centimetres (see ScanMatcher).
-constexpr double kCloseSigmas = 4.0;
 
 // The rows of one stack share the errors of map and odometry, which do not average out.
 constexpr double kInflation = 100.0;
@@ -31,36 +29,12 @@ ScanMatcherConfig matcher_config() {
   return config;
 }
 
-std::size_t offered(const FeatureCloud& stack) {
-  return std::min<std::size_t>(stack.planes.size(), kPlaneBudget) +
-         std::min<std::size_t>(stack.edges.size(), kEdgeBudget);
-}
-
 PosePrior prior_at(const Pose& predicted, double travelled_m) {
   const OdometryDrift drift;
   Vector6d sigma;
   sigma << Eigen::Vector3d::Constant(drift.rotation_sigma(travelled_m)),
       Eigen::Vector3d::Constant(drift.translation_sigma(travelled_m));
   return {predicted, sigma.cwiseAbs2().asDiagonal()};
-}
-
-/// A bisquare weight tells its row's residual: w = (1 - (r / cut)^2)^2, thesis 4.11, leverage left out.
-int count_close(const SolveResult& solved) {
-  constexpr double kBisquareCut = 6.9459;
-  const double alpha = kCloseSigmas / (kBisquareCut * solved.scale);
-  const double kept = std::max(0.0, 1.0 - alpha * alpha);
-  return static_cast<int>(std::count_if(solved.weights.begin(), solved.weights.end(),
-                                        [&](double weight) { return weight > 0.0 && weight >= kept * kept; }));
-}
-
-MatchEvidence evidence_of(const SolveResult& solved, std::size_t features) {
-  MatchEvidence evidence;
-  evidence.map_from_body = solved.pose;
-  evidence.well_conditioned = solved.spectrum.well_conditioned;
-  if (features == 0) return evidence;
-  evidence.overlap = static_cast<double>(solved.features) / static_cast<double>(features);
-  evidence.close_share = static_cast<double>(count_close(solved)) / static_cast<double>(features);
-  return evidence;
 }
 
 Matrix6d covariance_of(const SolveResult& solved) {
@@ -75,22 +49,37 @@ Matrix6d covariance_of(const SolveResult& solved) {
 
 MapLocalizer::MapLocalizer(const Calibration& calibration, const PriorMap& map, const Pose& map_from_start,
                            bool remapping)
-    : matcher_(calibration, matcher_config(), remapping), gate_(map_from_start) {
+    : matcher_(calibration, matcher_config(), remapping), occupancy_(map.surfaces), gate_(map_from_start) {
   matcher_.insert(map.surfaces, Pose{}, /*path_m=*/0.0);
+}
+
+MatchEvidence MapLocalizer::evidence_of(const FeatureCloud& stack, const SolveResult& solved) const {
+  MatchEvidence evidence;
+  evidence.map_from_body = solved.pose;
+  evidence.well_conditioned = solved.spectrum.well_conditioned;
+  evidence.overlap = occupancy_.share_near(stack, solved.pose);
+  if (matcher_.rows().empty()) return evidence;
+  // The same sample that the matcher takes.
+  std::vector<FeaturePoint> planes;
+  for (const std::uint32_t i : sample_by_direction(stack.planes, kPlaneBudget)) planes.push_back(stack.planes[i]);
+  const Matrix6d expected =
+      plane_information(planes_near(planes, occupancy_, solved.pose), matcher_.rows().front().sigma_m);
+  evidence.support = map_support(expected, solved.information, ScanMatcherConfig{}.degeneracy_threshold);
+  return evidence;
 }
 
 MapFix MapLocalizer::locate(std::int64_t stamp_ns, const FeatureCloud& stack, const Pose& odometry_from_body) {
   const StopWatch watch;
   const Pose predicted = gate_.expected_map_from_odometry() * odometry_from_body;
   const SolveResult solved = matcher_.match(stack, prior_at(predicted, gate_.travelled_m()));
-  const MatchEvidence evidence = evidence_of(solved, offered(stack));
+  const MatchEvidence evidence = evidence_of(stack, solved);
   MapFix fix;
   fix.health = health_of(stamp_ns, Module::kLocalization, solved, predicted, watch.seconds());
   fix.covariance = covariance_of(solved);
   fix.match.stamp_ns = stamp_ns;
   fix.match.agreement = gate_.judge(evidence, odometry_from_body);
   fix.match.overlap = evidence.overlap;
-  fix.match.close_share = evidence.close_share;
+  fix.match.support = evidence.support;
   fix.match.correction_rad = fix.health.correction.head<3>().norm();
   fix.match.correction_m = fix.health.correction.tail<3>().norm();
   fix.match.iterations = solved.iterations;

@@ -4,6 +4,7 @@
 
 #include "estimator/lidar/scan_matcher.h"
 #include "estimator/localization/agreement_gate.h"
+#include "estimator/localization/occupancy.h"
 #include "estimator/localization/prior_map.h"
 
 namespace plumbline {
@@ -29,7 +30,10 @@ class MapLocalizer {
   const AgreementGate& gate() const { return gate_; }
 
  private:
+  MatchEvidence evidence_of(const FeatureCloud& stack, const SolveResult& solved) const;
+
   ScanMatcher matcher_;
+  Occupancy occupancy_;
   AgreementGate gate_;
 };
 

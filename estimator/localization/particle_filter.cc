@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "estimator/geometry/interpolation.h"
 #include "estimator/lidar/direction_sampling.h"
+#include "estimator/localization/map_support.h"
 #include "estimator/pipeline/module_health.h"
 
 namespace plumbline {
@@ -15,7 +17,7 @@ constexpr double kCoarseVoxel_m = 10.0;
 constexpr double kResolution_m = 0.4;  // as the matcher's
 constexpr int kNeighbours = 10;
 constexpr double kReach_m = 1.0;
-constexpr int kPoints = 400;
+constexpr int kPoints = 2000;  // likewise
 
 // The likelihood field of Thrun, Burgard and Fox, Probabilistic Robotics (2005), 6.4: of a return's end point at
 // distance d from the map, z_hit N(d; 0, sigma) + z_rand / z_max, as a product over the returns. The thesis does not
@@ -25,7 +27,9 @@ constexpr double kHitShare = 0.9;
 constexpr double kRandomShare = 0.1;
 constexpr double kSigma_m = 0.05;
 constexpr double kPower = 0.1;
+constexpr double kDriftInterval_s = 2.0;  // over which OdometryDrift tells the drift at rest
 constexpr double kClose_m = 0.08;
+constexpr double kLeastInformation = 1000.0;  // the matcher's threshold, for our larger sigma
 
 double hit_density(double distance_m) {
   const double z = distance_m / kSigma_m;
@@ -58,6 +62,7 @@ Matrix6d spread_of(const std::vector<Pose>& poses, const std::vector<double>& we
 
 ParticleFilter::ParticleFilter(const Calibration& calibration, const PriorMap& map, const Pose& map_from_start)
     : planes_(kCoarseVoxel_m, kResolution_m),
+      occupancy_(map.surfaces),
       gate_(map_from_start),
       random_(kSeed),
       map_from_body_(kParticles, map_from_start) {
@@ -74,8 +79,12 @@ double ParticleFilter::gaussian() {
   return radius * std::cos(2.0 * std::numbers::pi * uniform());
 }
 
-void ParticleFilter::move_by(const Pose& motion) {
-  const OdometryDrift drift;
+/// The drift that is not the way's is taken for a random walk, told for an interval of the matcher's.
+void ParticleFilter::move_by(const Pose& motion, double seconds) {
+  OdometryDrift drift;
+  const double share = std::sqrt(std::clamp(seconds / kDriftInterval_s, 0.0, 1.0));
+  drift.sigma_m *= share;
+  drift.sigma_rad *= share;
   const double travelled_m = motion.translation.norm();
   for (Pose& particle : map_from_body_) {
     Vector6d noise;
@@ -98,14 +107,10 @@ ParticleFilter::Likelihood ParticleFilter::likelihood(const std::vector<FeatureP
     if (patch) {
       const double distance_m = std::abs(patch->normal.dot(place) - patch->offset);
       density += kHitShare * hit_density(distance_m);
-      result.overlap += 1.0;
-      result.close_share += distance_m < kClose_m ? 1.0 : 0.0;
+      if (distance_m < kClose_m) result.on_map.push_back(f);
     }
     result.log += kPower * std::log(density);
   }
-  const double count = std::max<double>(1.0, static_cast<double>(points.size()));
-  result.overlap /= count;
-  result.close_share /= count;
   return result;
 }
 
@@ -137,20 +142,23 @@ MapFix ParticleFilter::locate(std::int64_t stamp_ns, const FeatureCloud& stack, 
   const StopWatch watch;
   const std::vector<FeaturePoint> points = sample(stack);
   // Until the first update the particles stand where odometry started.
-  move_by(last_odometry_.value_or(Pose{}).inverse() * odometry_from_body);
+  const double seconds = last_odometry_ ? seconds_between(last_ns_, stamp_ns) : kDriftInterval_s;
+  move_by(last_odometry_.value_or(Pose{}).inverse() * odometry_from_body, seconds);
   last_odometry_ = odometry_from_body;
+  last_ns_ = stamp_ns;
   const Pose predicted = gate_.expected_map_from_odometry() * odometry_from_body;
   std::vector<Eigen::Vector3d> places;
   for (const FeaturePoint& f : points) places.push_back(predicted * f.position.cast<double>());
   planes_.prepare(places);
   const std::vector<double> weights = weigh(points);
 
+  const Pose mean = mean_of(map_from_body_, weights);
+  const std::vector<FeaturePoint> on_map = likelihood(points, mean).on_map;
   MatchEvidence evidence;
-  evidence.map_from_body = mean_of(map_from_body_, weights);
+  evidence.map_from_body = mean;
   evidence.well_conditioned = 6;  // it cannot tell
-  const Likelihood at_mean = likelihood(points, evidence.map_from_body);
-  evidence.overlap = at_mean.overlap;
-  evidence.close_share = at_mean.close_share;
+  evidence.overlap = occupancy_.share_near(stack, mean);
+  evidence.support = 1.0;  // a filter is its own judge; what the map bears out is told all the same
 
   MapFix fix;
   fix.covariance = spread_of(map_from_body_, weights, evidence.map_from_body);
@@ -159,7 +167,8 @@ MapFix ParticleFilter::locate(std::int64_t stamp_ns, const FeatureCloud& stack, 
   fix.match.stamp_ns = stamp_ns;
   fix.match.agreement = gate_.judge(evidence, odometry_from_body);
   fix.match.overlap = evidence.overlap;
-  fix.match.close_share = evidence.close_share;
+  fix.match.support = map_support(plane_information(planes_near(points, occupancy_, mean), kSigma_m),
+                                  plane_information(on_map, kSigma_m), kLeastInformation);
   fix.match.correction_rad = correction.head<3>().norm();
   fix.match.correction_m = correction.tail<3>().norm();
   fix.match.iterations = 1;
@@ -169,7 +178,7 @@ MapFix ParticleFilter::locate(std::int64_t stamp_ns, const FeatureCloud& stack, 
   fix.health.mode = ModuleMode::kSolved;
   fix.health.well_conditioned = 6;
   fix.health.rows = static_cast<int>(points.size());
-  fix.health.inliers = static_cast<int>(std::lround(at_mean.close_share * static_cast<double>(points.size())));
+  fix.health.inliers = static_cast<int>(on_map.size());
   fix.health.correction = correction;
   fix.health.processing_s = fix.match.processing_s;
   return fix;

@@ -27,11 +27,10 @@ class ParticleFilter {
   /// A scan's likelihood at one pose.
   struct Likelihood {
     double log = 0.0;
-    double overlap = 0.0;
-    double close_share = 0.0;
+    std::vector<FeaturePoint> on_map;
   };
 
-  void move_by(const Pose& motion);
+  void move_by(const Pose& motion, double seconds);
   Likelihood likelihood(const std::vector<FeaturePoint>& points, const Pose& map_from_body) const;
   std::vector<double> weigh(const std::vector<FeaturePoint>& points) const;
   void resample(const std::vector<double>& weights);
@@ -39,11 +38,13 @@ class ParticleFilter {
   double uniform();
 
   VoxelMap planes_;
+  Occupancy occupancy_;
   FitLimits limits_;
   AgreementGate gate_;
   std::mt19937_64 random_;           ///< its sequence is fixed by the standard; distributions are not
   std::vector<Pose> map_from_body_;  ///< the particles
   std::optional<Pose> last_odometry_;
+  std::int64_t last_ns_ = 0;
 };
 
 }  // namespace plumbline

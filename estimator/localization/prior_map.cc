@@ -56,6 +56,7 @@ void PriorMapBuilder::add(const Eigen::Vector3d& position, const Eigen::Vector3f
   ++map_.points;
   map_.low = map_.low.cwiseMin(position);
   map_.high = map_.high.cwiseMax(position);
+  any_normal_ = any_normal_ || normal.squaredNorm() > 0.0F;
   const bool is_edge = !has_normals_ || normal.squaredNorm() < 0.25F;
   merge({position.cast<float>(), is_edge ? Eigen::Vector3f::Zero() : Eigen::Vector3f(normal.normalized()),
          std::isfinite(intensity) ? intensity : 0.0F, 1.0F});
@@ -95,12 +96,22 @@ PriorMap PriorMapBuilder::build() {
   if (map_.points == 0) {
     throw std::invalid_argument(map_.unusable == 0 ? "it has no points" : "none of its points is finite");
   }
-  if (has_normals_) {
+  keep_points();
+  if (has_normals_ && any_normal_) {
     take_normals_as_given(map_.surfaces);
   } else {
     find_normals(map_.surfaces);
   }
   return std::move(map_);
+}
+
+void PriorMapBuilder::keep_points() {
+  map_.thinned.reserve(cells_.size());
+  for (const Cell& cell : cells_) {
+    map_.thinned.push_back({cell.position, cell.intensity});
+    map_.thinned.back().normal = cell.normal;
+    map_.thinned.back().normal.stableNormalize();
+  }
 }
 
 void PriorMapBuilder::take_normals_as_given(FeatureCloud& surfaces) const {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "estimator/estimator.h"
 #include "estimator/lidar/features.h"
 #include "estimator/lidar/flat_index.h"
 
@@ -14,6 +15,8 @@ struct PriorMap {
   /// In the map's frame. Planes have unit normals; where the map did not say from which side a surface was seen, each
   /// point is there for both.
   FeatureCloud surfaces;
+  /// The points themselves, thinned; their normals as the map gave them.
+  std::vector<MapPoint> thinned;
   Eigen::Vector3d low = Eigen::Vector3d::Zero();   ///< the corners of its extent
   Eigen::Vector3d high = Eigen::Vector3d::Zero();  ///< [m]
   std::int64_t points = 0;                         ///< taken in, of any number
@@ -34,7 +37,7 @@ class PriorMapBuilder {
   static constexpr double kLargestCoordinate_m =
       10'000.0;  ///< beyond, single precision resolves less than a millimetre
 
-  /// @param has_normals  zero normals are edges; otherwise normals are found from the neighbours
+  /// @param has_normals  zero normals are edges, unless all are zero; otherwise they are found from the neighbours
   explicit PriorMapBuilder(bool has_normals);
 
   /// @throws std::invalid_argument for a place beyond kLargestCoordinate_m or a map too large
@@ -53,10 +56,12 @@ class PriorMapBuilder {
 
   void merge(const Cell& cell);
   void coarsen();
+  void keep_points();
   void take_normals_as_given(FeatureCloud& surfaces) const;
   void find_normals(FeatureCloud& surfaces) const;
 
   bool has_normals_;
+  bool any_normal_ = false;
   PriorMap map_;
   std::vector<Cell> cells_;
   FlatIndex index_;

@@ -104,16 +104,19 @@ TEST_F(LocalizationInAHall, AStartHalfAMetreOffIsFound) {
   EXPECT_LT(testing::position_error(run.outputs.back(), stroll), 0.04);
 }
 
+// The hall's floor, ceiling and walls fit anywhere along it; its pillars do not.
 TEST_F(LocalizationInAHall, AWrongStartIsReportedAndOdometryGoesOn) {
-  LocalizationConfig config;
-  config.map_from_start.translation = {7.0, 2.5, 0.0};
-  const LocalizedRun run = testing::run_localized(*hall_, *map_, stroll, no_drift, 10.0, config);
-  for (const Odometry& output : run.outputs) {
-    const double t = 1e-9 * static_cast<double>(output.stamp_ns);
-    ASSERT_FALSE(output.localized);
-    ASSERT_LT((config.map_from_start * stroll(t)).local(output.world_from_body).norm(), 1e-9);
+  for (const Eigen::Vector3d& off : {Eigen::Vector3d(3.0, 0.0, 0.0), Eigen::Vector3d(7.0, 2.5, 0.0)}) {
+    LocalizationConfig config;
+    config.map_from_start.translation = off;
+    const LocalizedRun run = testing::run_localized(*hall_, *map_, stroll, no_drift, 8.0, config);
+    for (const Odometry& output : run.outputs) {
+      const double t = 1e-9 * static_cast<double>(output.stamp_ns);
+      ASSERT_FALSE(output.localized);
+      ASSERT_LT((config.map_from_start * stroll(t)).local(output.world_from_body).norm(), 1e-9);
+    }
+    EXPECT_THAT(agreements(run), ::testing::Each(MapAgreement::kDisagrees));
   }
-  EXPECT_FALSE(run.matches.empty());
 }
 
 TEST_F(LocalizationInAHall, AnotherPlacesMapIsReported) {

@@ -56,13 +56,13 @@ class DriftingOdometry final : public Estimator {
 };
 
 /// What scans from every half metre of a straight walk see, in the world's frame.
-inline PriorMap mapped_along_x(const BoxWorld& world, double length_m, bool with_normals = true) {
+inline PriorMap mapped_along_x(const BoxWorld& world, double to_m, bool with_normals = true, double from_m = 0.0) {
   const Calibration c = lidar_calibration();
   RandomStream noise(77, "map");
   PriorMapBuilder builder(with_normals);
   PoseTrack rest;
   rest.push(0, {});
-  for (double x = 0.0; x <= length_m; x += 0.5) {
+  for (double x = from_m; x <= to_m; x += 0.5) {
     const Pose pose{Eigen::Quaterniond::Identity(), {x, 0.2 * std::sin(x), 0.05 * std::sin(3.0 * x)}};
     const LidarScan scan = vlp16_scan(
         world, [&](double) { return pose; }, 0, c.body_from_lidar, kRangeSigma, noise);

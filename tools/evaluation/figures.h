@@ -38,9 +38,12 @@ struct TrajectoryFigures {
   std::vector<PosePair> aligned;  ///< with drift_alignment, to the truth's end
 };
 
-/// @param alignment  of every error; without one drift, progress and the like follow the first second, ape follows se3
+/// @param alignment   of every error; without one drift, progress and the like follow the first second, ape follows se3
+/// @param settled_ns  the second from then on is meant instead: an estimate that is put on a prior map changes its
+/// frame
 TrajectoryFigures trajectory_figures(const StampedPoses& truth, const StampedPoses& estimate,
-                                     std::optional<AlignmentKind> alignment = std::nullopt);
+                                     std::optional<AlignmentKind> alignment = std::nullopt,
+                                     std::optional<std::int64_t> settled_ns = std::nullopt);
 
 /// All that a run is judged by.
 struct RunFigures {

@@ -9,6 +9,8 @@
 namespace plumbline {
 namespace {
 
+constexpr std::int64_t kBlend_ns = 1'000'000'000;  // the first correction has been spent by then
+
 template <typename Value>
 std::vector<double> of_all(const std::vector<MapMatch>& matches, Value value) {
   std::vector<double> values;
@@ -24,7 +26,7 @@ void add_matches(LocalizationFigures& figures, const std::vector<MapMatch>& matc
     total_ms += 1e3 * match.processing_s;
   }
   figures.overlap_median = quantile(of_all(matches, [](const MapMatch& m) { return m.overlap; }), 0.5);
-  figures.close_share_median = quantile(of_all(matches, [](const MapMatch& m) { return m.close_share; }), 0.5);
+  figures.support_median = quantile(of_all(matches, [](const MapMatch& m) { return m.support; }), 0.5);
   figures.correction_median_m = quantile(of_all(matches, [](const MapMatch& m) { return m.correction_m; }), 0.5);
   figures.iterations_median =
       quantile(of_all(matches, [](const MapMatch& m) { return static_cast<double>(m.iterations); }), 0.5);
@@ -60,7 +62,10 @@ std::optional<LocalizationFigures> localization_figures(const RunRecord& record)
     duration_s = seconds_between(start_ns, record.odometry.back().stamp_ns);
     figures.at_end = record.odometry.back().localized;
     figures.share = static_cast<double>(localized.size()) / static_cast<double>(record.odometry.size());
-    if (!localized.empty()) figures.first_s = seconds_between(start_ns, localized.front().stamp_ns);
+    if (!localized.empty()) {
+      figures.first_s = seconds_between(start_ns, localized.front().stamp_ns);
+      figures.settled_ns = localized.front().stamp_ns + kBlend_ns;
+    }
   }
   add_matches(figures, record.map_matches, duration_s);
   add_errors(figures, record.ground_truth, localized);

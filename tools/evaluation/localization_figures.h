@@ -17,13 +17,14 @@ struct LocalizationFigures {
   bool at_end = false;                           ///< localized at the last output
   std::optional<double> share;                   ///< of the outputs that are localized
   std::optional<double> first_s;                 ///< since the first output
+  std::optional<std::int64_t> settled_ns;        ///< the output is on the map from then on
   /// Position error while localized, after the one SE(3) that best fits those poses: where a map lies in the true world
   /// nobody knows.
   std::optional<double> error_median_m;
   std::optional<double> error_p75_m;
   std::optional<double> error_max_m;
   std::optional<double> overlap_median;
-  std::optional<double> close_share_median;
+  std::optional<double> support_median;
   std::optional<double> correction_median_m;
   std::optional<double> iterations_median;
   std::optional<double> mean_ms;   ///< of a match, its stacking included

@@ -40,11 +40,11 @@ std::string degeneracy_csv(const std::vector<ModuleHealth>& health) {
 }
 
 std::string localization_csv(const std::vector<MapMatch>& matches) {
-  std::string text = "stamp_ns,agreement,overlap,close_share,correction_m,correction_rad,iterations,wall_ms\n";
+  std::string text = "stamp_ns,agreement,overlap,support,correction_m,correction_rad,iterations,wall_ms\n";
   for (const MapMatch& match : matches) {
     text += std::to_string(match.stamp_ns);
     (text += ',') += to_string(match.agreement);
-    for (const double value : {match.overlap, match.close_share, match.correction_m, match.correction_rad}) {
+    for (const double value : {match.overlap, match.support, match.correction_m, match.correction_rad}) {
       append_general(text += ',', value, kDigits);
     }
     (text += ',') += std::to_string(match.iterations);

@@ -155,18 +155,23 @@ std::string eigenvalue_chart(const RunRecord& record, Module module, const std::
 std::string localization_charts(const RunRecord& record) {
   std::vector<double> times;
   ChartSeries overlap{"near the map", "c0", {}, {}};
-  ChartSeries close{"on the map", "c1", {}, {}};
+  ChartSeries support{"borne out, worst direction", "c1", {}, {}};
   ChartSeries correction{"", "c0", {}, {}};
   for (const MapMatch& match : record.map_matches) {
     times.push_back(seconds_between(start_of(record), match.stamp_ns));
     overlap.y.push_back(match.overlap);
-    close.y.push_back(match.close_share);
+    support.y.push_back(match.support);
     correction.y.push_back(match.correction_m);
   }
-  overlap.x = close.x = correction.x = times;
-  LineChart shares{"Share of what is seen", "", time_range(record)};
-  shares.series = {overlap, close};
-  LineChart corrections{"Correction of the prediction", "m", time_range(record)};
+  overlap.x = support.x = correction.x = times;
+  LineChart shares;
+  shares.caption = "Share of what is seen";
+  shares.x = time_range(record);
+  shares.series = {overlap, support};
+  LineChart corrections;
+  corrections.caption = "Correction of the prediction";
+  corrections.unit = "m";
+  corrections.x = time_range(record);
   corrections.series = {correction};
   return line_chart(shares) + line_chart(corrections);
 }

@@ -108,7 +108,7 @@ std::string localization_section(const RunReport& report) {
          "<div class=\"tiles\">" + figure_tile("Localized at the end", figures.at_end ? 1.0 : 0.0, "") +
          figure_tile("Median error", figures.error_median_m, "m") +
          figure_tile("Worst error", figures.error_max_m, "m") +
-         figure_tile("On the map", figures.close_share_median, "of what is seen") + "</div><div class=\"pair\">" +
+         figure_tile("Borne out by the map", figures.support_median, "") + "</div><div class=\"pair\">" +
          localization_charts(report.record) + wide_table(head_row({"match"}, {"count"}) + rows) + "</div>";
 }
 
