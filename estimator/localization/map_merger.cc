@@ -26,6 +26,7 @@ constexpr double kLargestCorrection_m = 2.0;
 constexpr double kLargestCorrection_rad = 0.2;
 // A wrong overlap has many fits, and which is found depends on the guess.
 constexpr double kAside_m = 0.3;
+constexpr double kAsGood = 0.7;  // of the support
 constexpr double kLargestSpread_m = 0.05;
 
 /// The features that lie near the other map, seen from their middle: levers about a far origin would couple rotation
@@ -110,13 +111,15 @@ double support_of(const ScanMatcher& matcher, const Fit& found) {
                      ScanMatcherConfig{}.degeneracy_threshold);
 }
 
-double spread_of(ScanMatcher& matcher, const PriorMap& b, const Occupancy& a, const Fit& found) {
+/// How far off fits from other guesses end that are about as good. One that merely got stuck does not count.
+double spread_of(ScanMatcher& matcher, const PriorMap& b, const Occupancy& a, const Fit& found, double support) {
   double largest = 0.0;
   for (const Eigen::Vector3d& aside : {Eigen::Vector3d(kAside_m, kAside_m, 0.0), Eigen::Vector3d(-kAside_m, 0.0, 0.1),
                                        Eigen::Vector3d(0.0, -kAside_m, -0.1)}) {
     Pose guess = found.a_from_b;
     guess.translation += aside;
     const Fit again = fit(matcher, b, a, guess);
+    if (support_of(matcher, again) < kAsGood * support) continue;
     const Eigen::Vector3d middle = found.overlap.b_from_middle.translation;
     largest = std::max(largest, (again.a_from_b * middle - found.a_from_b * middle).norm());
   }
@@ -162,7 +165,7 @@ MapAlignment align_maps(const PriorMap& a, const PriorMap& b, const Pose& guess)
   alignment.correction_m = correction.tail<3>().norm();
   add_residuals(matcher, found, alignment);
   alignment.support = support_of(matcher, found);
-  if (alignment.well_conditioned == 6) alignment.spread_m = spread_of(matcher, b, occupancy, found);
+  if (alignment.well_conditioned == 6) alignment.spread_m = spread_of(matcher, b, occupancy, found, alignment.support);
   alignment.refusal = refusal_of(alignment, found);
   return alignment;
 }

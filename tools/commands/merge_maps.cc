@@ -85,7 +85,7 @@ void print(const MapAlignment& m) {
             << readable_text(m.residual_p95_m) << " m p95\n"
             << "  correction  " << readable_text(m.correction_m) << " m, " << readable_text(degrees * m.correction_rad)
             << "°\n"
-            << "  other fits  within " << readable_text(m.spread_m) << " m\n";
+            << "  other fits  " << readable_text(m.spread_m) << " m aside\n";
 }
 
 }  // namespace
@@ -97,6 +97,7 @@ int merge_maps(const MergeMapsArguments& arguments) {
   const PriorMap a = read_prior_map(arguments.a);
   const PriorMap b = read_prior_map(arguments.b);
   const MapAlignment alignment = align_maps(a, b, guess_of(arguments));
+  print(alignment);
   if (!alignment.refusal.empty()) {
     std::cerr << "plumbline: " << arguments.b << " on " << arguments.a << ": " << alignment.refusal << std::endl;
     return kExitCheckFailed;
@@ -107,7 +108,6 @@ int merge_maps(const MergeMapsArguments& arguments) {
   write_whole(out, joined(a.thinned, b_in_a));
   write_file_atomically(picture, {reinterpret_cast<const char*>(png.data()), png.size()});
   std::cout << out.string() << ": " << a.thinned.size() << " points of A and " << b_in_a.size() << " of B\n";
-  print(alignment);
   std::cout << "  picture     " << picture.string() << std::endl;
   return kExitDone;
 }
