@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "estimator/localize.h"
 #include "tests/estimator/localization_world.h"
 
 namespace plumbline {
@@ -152,6 +153,17 @@ TEST_F(LocalizationInAHall, IsDeterministic) {
     return testing::run_localized(*hall_, *map_, stroll, drifting, 6.0).outputs.back().world_from_body.translation;
   };
   EXPECT_EQ(end(), end());
+}
+
+TEST_F(LocalizationInAHall, ARobotsOwnCodeHasItInOneCall) {
+  std::vector<MapPoint> points = map_->thinned;
+  const auto make = [&] {
+    return make_localized_estimator(std::make_unique<testing::DriftingOdometry>(stroll, no_drift),
+                                    testing::lidar_calibration(), points, Pose{});
+  };
+  EXPECT_NE(make(), nullptr);
+  points.clear();
+  EXPECT_THROW(make(), std::invalid_argument);
 }
 
 // Along a smooth tunnel no match can tell: there odometry's drift stays, and across it is taken out.

@@ -53,18 +53,23 @@ std::optional<LocalizationFigures> localization_figures(const RunRecord& record)
   if (record.prior_map.empty()) return std::nullopt;
   LocalizationFigures figures;
   StampedPoses localized;
+  std::optional<std::int64_t> first_ns;
+  std::size_t outputs = 0;
   for (const Odometry& output : record.odometry) {
-    if (output.localized) localized.push_back({output.stamp_ns, output.world_from_body});
+    if (!output.localized) continue;
+    ++outputs;
+    if (!first_ns) first_ns = output.stamp_ns;
+    if (output.stamp_ns >= *first_ns + kBlend_ns) localized.push_back({output.stamp_ns, output.world_from_body});
   }
   double duration_s = 0.0;
   if (!record.odometry.empty()) {
     const std::int64_t start_ns = record.odometry.front().stamp_ns;
     duration_s = seconds_between(start_ns, record.odometry.back().stamp_ns);
     figures.at_end = record.odometry.back().localized;
-    figures.share = static_cast<double>(localized.size()) / static_cast<double>(record.odometry.size());
-    if (!localized.empty()) {
-      figures.first_s = seconds_between(start_ns, localized.front().stamp_ns);
-      figures.settled_ns = localized.front().stamp_ns + kBlend_ns;
+    figures.share = static_cast<double>(outputs) / static_cast<double>(record.odometry.size());
+    if (first_ns) {
+      figures.first_s = seconds_between(start_ns, *first_ns);
+      figures.settled_ns = *first_ns + kBlend_ns;
     }
   }
   add_matches(figures, record.map_matches, duration_s);

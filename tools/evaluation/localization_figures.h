@@ -18,8 +18,8 @@ struct LocalizationFigures {
   std::optional<double> share;                   ///< of the outputs that are localized
   std::optional<double> first_s;                 ///< since the first output
   std::optional<std::int64_t> settled_ns;        ///< the output is on the map from then on
-  /// Position error while localized, after the one SE(3) that best fits those poses: where a map lies in the true world
-  /// nobody knows.
+  /// Position error while localized, from when the first correction has been spent, after the one SE(3) that best fits
+  /// those poses: where a map lies in the true world nobody knows.
   std::optional<double> error_median_m;
   std::optional<double> error_p75_m;
   std::optional<double> error_max_m;
