@@ -22,8 +22,9 @@ struct OdometryDrift {
 struct MatchEvidence {
   Pose map_from_body;
   int well_conditioned = 0;
-  double overlap = 0.0;  ///< share of what is seen that the map has surfaces near
-  double support = 0.0;  ///< see map_support()
+  double overlap = 0.0;       ///< share of what is seen that the map has surfaces near
+  double support = 0.0;       ///< see map_support()
+  double inlier_share = 0.0;  ///< of the matched features, those that fit
 };
 
 /// Decides which matches may move the estimate, and whether it is localized. Two matches in a row have to say the same

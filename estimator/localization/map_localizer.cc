@@ -58,7 +58,8 @@ MatchEvidence MapLocalizer::evidence_of(const FeatureCloud& stack, const SolveRe
   evidence.map_from_body = solved.pose;
   evidence.well_conditioned = solved.spectrum.well_conditioned;
   evidence.overlap = occupancy_.share_near(stack, solved.pose);
-  if (matcher_.rows().empty()) return evidence;
+  if (matcher_.rows().empty() || solved.features == 0) return evidence;
+  evidence.inlier_share = static_cast<double>(solved.inliers) / static_cast<double>(solved.features);
   // The same sample that the matcher takes.
   std::vector<FeaturePoint> planes;
   for (const std::uint32_t i : sample_by_direction(stack.planes, kPlaneBudget)) planes.push_back(stack.planes[i]);

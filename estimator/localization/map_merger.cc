@@ -19,8 +19,8 @@ constexpr int kRounds = 3;  // each with what the one before has brought near
 // What maps of one place hold to: theirs err by a few centimetres each, and cells of the other's surface lie anywhere
 // within a cell.
 constexpr double kClose_m = 0.1;
-constexpr double kLeastClose = 0.75;
-constexpr double kLeastSupport = 0.25;
+constexpr double kLeastClose = 0.85;
+constexpr double kLeastSupport = 0.1;  // as in AgreementGate
 constexpr double kLargestMedian_m = 0.05;
 constexpr double kLargestCorrection_m = 2.0;
 constexpr double kLargestCorrection_rad = 0.2;

@@ -158,6 +158,7 @@ MapFix ParticleFilter::locate(std::int64_t stamp_ns, const FeatureCloud& stack, 
   evidence.map_from_body = mean;
   evidence.well_conditioned = 6;  // it cannot tell
   evidence.overlap = occupancy_.share_near(stack, mean);
+  evidence.inlier_share = 1.0;
   evidence.support = 1.0;  // a filter is its own judge; what the map bears out is told all the same
 
   MapFix fix;
