@@ -12,7 +12,7 @@
 
 namespace plumbline {
 
-enum class Module { kImu, kVision, kLidar };
+enum class Module { kImu, kVision, kLidar, kLocalization };
 std::string_view to_string(Module module);
 
 /// What a module did with one message, one row of degeneracy.csv.
@@ -37,6 +37,29 @@ struct ModuleHealth {
   double processing_s = 0.0;
 };
 
+/// What came of holding a stack of scans against a prior map.
+enum class MapAgreement {
+  kAgrees,        ///< it moves the estimate
+  kUnconfirmed,   ///< the first of its kind: the next one has to say the same
+  kUndetermined,  ///< no direction is well-conditioned
+  kOffMap,        ///< too little of what is seen is on the map
+  kDisagrees,     ///< what is seen and the map are different shapes
+  kTooFar         ///< further from the odometry than it can have drifted
+};
+std::string_view to_string(MapAgreement agreement);
+
+/// One match with a prior map; its solve's ModuleHealth bears the same stamp.
+struct MapMatch {
+  std::int64_t stamp_ns = 0;
+  MapAgreement agreement = MapAgreement::kUndetermined;
+  double overlap = 0.0;  ///< share of what is seen that the map has surfaces near
+  double support = 0.0;  ///< share of what the scans tell that the map bears out, in the direction where it is least
+  double correction_m = 0.0;  ///< of the prediction
+  double correction_rad = 0.0;
+  int iterations = 0;
+  double processing_s = 0.0;  ///< stacking and matching
+};
+
 /// The estimate at one IMU sample's stamp, never revised afterwards.
 struct Odometry {
   std::int64_t stamp_ns = 0;
@@ -47,7 +70,9 @@ struct Odometry {
   Matrix6d covariance = Matrix6d::Zero();                ///< of world_from_body, right perturbation
   Matrix6d increment_covariance = Matrix6d::Zero();      ///< of the motion since the previous output
   bool lost = false;                                     ///< the estimator itself no longer believes its pose
+  bool localized = false;                                ///< world is a prior map's, and the last matches agree with it
   std::vector<ModuleHealth> health;                      ///< of the messages used since the previous output
+  std::vector<MapMatch> map_matches;                     ///< likewise
 };
 
 /// A feature of the newest image, for pictures of what vision does.
@@ -62,8 +87,9 @@ struct TrackedFeature {
 struct MapPoint {
   Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< in the estimate's world
   float intensity = 0.0F;
-  bool coloured = false;                 ///< a colour camera saw it
-  std::array<std::uint8_t, 3> colour{};  ///< red, green, blue, sRGB
+  bool coloured = false;                             ///< a colour camera saw it
+  std::array<std::uint8_t, 3> colour{};              ///< red, green, blue, sRGB
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< unit, towards where a surface was seen from; zero: an edge
 };
 
 /// Messages taken and refused, per module.
@@ -111,8 +137,9 @@ const std::vector<EstimatorInfo>& estimator_library();
 std::unique_ptr<Estimator> make_estimator(const std::string& name, const Calibration& calibration,
                                           const EstimatorConfig& config);
 
-/// Writes points as a binary PLY (x, y, z, intensity) through PCL; with red, green and blue if any is coloured, where
-/// points that no camera saw are mid grey. @throws std::runtime_error if it cannot be written.
+/// Writes points as a binary PLY (x, y, z, intensity, normal_x, normal_y, normal_z) through PCL; with red, green and
+/// blue if any is coloured, where points that no camera saw are mid grey. @throws std::runtime_error if it cannot be
+/// written.
 void write_ply(const std::string& path, const std::vector<MapPoint>& points);
 
 }  // namespace plumbline

@@ -81,6 +81,8 @@ void Recorder::take() {
     record_.health.insert(record_.health.end(), output.health.begin(), output.health.end());
     tell_of_image(output.health);
     output.health.clear();
+    record_.map_matches.insert(record_.map_matches.end(), output.map_matches.begin(), output.map_matches.end());
+    output.map_matches.clear();
     record_.estimate.push_back({output.stamp_ns, output.world_from_body});
     record_.estimator_lost = output.lost;
     record_.odometry.push_back(std::move(output));

@@ -39,6 +39,8 @@ struct RunRecord {
   std::vector<TimingRow> timing;
   std::vector<FrameSnapshot> snapshots;  ///< three frames: a sixth, a half and five sixths through the run
   std::vector<MapPoint> map;             ///< in the estimate's world
+  std::string prior_map;                 ///< path of the map that the run was localized on; empty: none
+  std::vector<MapMatch> map_matches;     ///< with it, in time order
   bool estimator_lost = false;           ///< the estimator said so in its last output
   std::string fault;                     ///< empty, or what ended the run early
   double estimator_wall_s = 0.0;

@@ -27,6 +27,7 @@ int run_program(int argc, char** argv) {
   add_export_command(app, chosen);
   add_list_command(app, chosen);
   add_merge_command(app, chosen);
+  add_merge_maps_command(app, chosen);
   add_mount_command(app, chosen);
   add_replay_command(app, chosen);
   add_regress_command(app, chosen);

@@ -16,8 +16,16 @@ namespace {
 void write_empty_ply(const std::string& path) {
   std::ofstream file(path, std::ios::binary);
   file << "ply\nformat binary_little_endian 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"
-          "property float z\nproperty float intensity\nend_header\n";
+          "property float z\nproperty float intensity\nproperty float normal_x\nproperty float normal_y\n"
+          "property float normal_z\nend_header\n";
   if (!file.flush()) throw std::runtime_error(path + ": cannot be written");
+}
+
+/// One field or several beside those that a cloud already has.
+void add_fields(const pcl::PCLPointCloud2& further, pcl::PCLPointCloud2& cloud) {
+  pcl::PCLPointCloud2 joined;
+  pcl::concatenateFields(cloud, further, joined);
+  cloud = std::move(joined);
 }
 
 /// Positions and intensities.
@@ -35,7 +43,15 @@ pcl::PCLPointCloud2 plain_cloud(const std::vector<MapPoint>& points) {
   return fields;
 }
 
-/// Colours alone, to be put beside the above.
+pcl::PCLPointCloud2 normal_cloud(const std::vector<MapPoint>& points) {
+  pcl::PointCloud<pcl::Axis> cloud;
+  cloud.reserve(points.size());
+  for (const MapPoint& point : points) cloud.push_back({point.normal.x(), point.normal.y(), point.normal.z()});
+  pcl::PCLPointCloud2 fields;
+  pcl::toPCLPointCloud2(cloud, fields);
+  return fields;
+}
+
 pcl::PCLPointCloud2 colour_cloud(const std::vector<MapPoint>& points) {
   constexpr std::uint8_t kUnseen = 128;
   pcl::PointCloud<pcl::RGB> cloud;
@@ -58,10 +74,9 @@ void write_ply(const std::string& path, const std::vector<MapPoint>& points) {
   // PCL refuses to write a cloud without points; a run without scan matching has just that.
   if (points.empty()) return write_empty_ply(path);
   pcl::PCLPointCloud2 cloud = plain_cloud(points);
+  add_fields(normal_cloud(points), cloud);
   if (std::any_of(points.begin(), points.end(), [](const MapPoint& point) { return point.coloured; })) {
-    pcl::PCLPointCloud2 coloured;
-    pcl::concatenateFields(cloud, colour_cloud(points), coloured);
-    cloud = std::move(coloured);
+    add_fields(colour_cloud(points), cloud);
   }
   // The camera element that PCL adds by default confuses other readers.
   pcl::PLYWriter writer;

@@ -88,8 +88,8 @@ struct ScanMatcher::Impl {
         edges(settings.coarse_voxel_m, settings.edge_resolution_m),
         planes(settings.coarse_voxel_m, settings.plane_resolution_m) {
     options.max_iterations = settings.max_iterations;
-    options.rotation_tolerance = 2e-5;
-    options.translation_tolerance = 1e-4;
+    options.rotation_tolerance = settings.rotation_tolerance;
+    options.translation_tolerance = settings.translation_tolerance;
     options.degeneracy_threshold = settings.degeneracy_threshold;
     options.remapping = remap;
     options.min_features = settings.least_features;

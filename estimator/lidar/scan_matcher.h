@@ -22,11 +22,13 @@ struct ScanMatcherConfig {
   /// the geometric middle of the gap; it asks for 1.4 cm of standard deviation.
   double degeneracy_threshold = 5000.0;
   int max_iterations = 8;
-  int plane_budget = 1200;           ///< planar features matched of one scan
-  int edge_budget = 300;             ///< edge features matched of one scan
-  int least_features = 50;           ///< fewer matched: nothing is well-conditioned
-  double largest_plane_tilt = 0.03;  ///< [rad] one sigma of a fitted plane's normal
-  double largest_edge_tilt = 0.05;   ///< [rad] one sigma of a fitted line's direction
+  double rotation_tolerance = 2e-5;     ///< [rad] a smaller step ends a match
+  double translation_tolerance = 1e-4;  ///< [m] likewise
+  int plane_budget = 1200;              ///< planar features matched of one scan
+  int edge_budget = 300;                ///< edge features matched of one scan
+  int least_features = 50;              ///< fewer matched: nothing is well-conditioned
+  double largest_plane_tilt = 0.03;     ///< [rad] one sigma of a fitted plane's normal
+  double largest_edge_tilt = 0.05;      ///< [rad] one sigma of a fitted line's direction
 };
 
 /// How range biases make successive matches drift. A bias moves a feature along its beam, and as the sensor goes past

@@ -13,6 +13,13 @@ namespace {
 // would follow the estimate's drift, which the map is there to stop.
 constexpr int kPointsPerMean = 32;
 
+MapPoint exported(const MapSample& mean, float intensity) {
+  MapPoint point{mean.position.cast<float>(), intensity};
+  point.normal = mean.normal;
+  point.normal.stableNormalize();
+  return point;
+}
+
 int floor_divide(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
 
 }  // namespace
@@ -72,7 +79,7 @@ void VoxelMap::drop_older(CoarseVoxel& voxel, double path_m) {
   voxel.changed = true;
   for (const Cell& cell : old) {
     if (cell.first_path_m < path_m) {
-      archive_.push_back({cell.mean.position.cast<float>(), cell.intensity});
+      archive_.push_back(exported(cell.mean, cell.intensity));
       continue;
     }
     voxel.index.find_or_insert(cell.key, static_cast<std::uint32_t>(voxel.cells.size()));
@@ -138,7 +145,7 @@ void VoxelMap::nearest(const Eigen::Vector3d& query, double largest_distance, Ne
 void VoxelMap::collect(std::vector<MapPoint>& points) const {
   points.insert(points.end(), archive_.begin(), archive_.end());
   for (const CoarseVoxel& voxel : voxels_) {
-    for (const Cell& cell : voxel.cells) points.push_back({cell.mean.position.cast<float>(), cell.intensity});
+    for (const Cell& cell : voxel.cells) points.push_back(exported(cell.mean, cell.intensity));
   }
 }
 

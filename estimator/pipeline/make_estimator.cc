@@ -16,6 +16,26 @@ std::string_view to_string(Module module) {
       return "vision";
     case Module::kLidar:
       return "lidar";
+    case Module::kLocalization:
+      return "localization";
+  }
+  return "";
+}
+
+std::string_view to_string(MapAgreement agreement) {
+  switch (agreement) {
+    case MapAgreement::kAgrees:
+      return "agrees";
+    case MapAgreement::kUnconfirmed:
+      return "unconfirmed";
+    case MapAgreement::kUndetermined:
+      return "undetermined";
+    case MapAgreement::kOffMap:
+      return "off the map";
+    case MapAgreement::kDisagrees:
+      return "disagrees";
+    case MapAgreement::kTooFar:
+      return "too far";
   }
   return "";
 }

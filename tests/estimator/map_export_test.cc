@@ -39,6 +39,18 @@ TEST(MapExport, WritesColoursWhereThereAreAny) {
   EXPECT_EQ(std::make_tuple(cloud[1].r, cloud[1].g, cloud[1].b), std::make_tuple(128, 128, 128));
 }
 
+TEST(MapExport, WritesNormalsForWhoeverMatchesWithTheMap) {
+  MapPoint wall{{1.0F, 2.0F, 3.0F}, 0.5F};
+  wall.normal = {0.0F, -1.0F, 0.0F};
+  const auto path = std::filesystem::path(::testing::TempDir()) / "plumbline_map_normal_test.ply";
+  write_ply(path.string(), {wall});
+  pcl::PointCloud<pcl::PointNormal> cloud;
+  ASSERT_GE(pcl::io::loadPLYFile(path.string(), cloud), 0);
+  std::filesystem::remove(path);
+  ASSERT_EQ(cloud.size(), 1u);
+  EXPECT_EQ(cloud[0].normal_y, -1.0F);
+}
+
 TEST(MapExport, WritesAMapWithoutPoints) { EXPECT_EQ(points_read_back({}), 0u); }
 
 TEST(MapExport, SaysWhichFileItCannotWrite) {

@@ -17,6 +17,7 @@ void add_export_command(CLI::App& app, Action& chosen);
 void add_list_command(CLI::App& app, Action& chosen);
 void add_mount_command(CLI::App& app, Action& chosen);
 void add_merge_command(CLI::App& app, Action& chosen);
+void add_merge_maps_command(CLI::App& app, Action& chosen);
 void add_replay_command(CLI::App& app, Action& chosen);
 void add_regress_command(CLI::App& app, Action& chosen);
 void add_report_command(CLI::App& app, Action& chosen);

@@ -4,6 +4,7 @@
 
 #include "scenarios/session.h"
 #include "tools/commands/command.h"
+#include "tools/commands/map_options.h"
 #include "tools/commands/shared_options.h"
 #include "tools/exit_code.h"
 #include "tools/formats/replay_config.h"
@@ -24,6 +25,7 @@ struct ReplayArguments {
   std::vector<std::string> overrides;
   std::string estimator;
   std::string out;
+  MapArguments map;
   int threads = 0;
 };
 
@@ -52,13 +54,15 @@ int replay(const ReplayArguments& arguments) {
   const Dataset dataset = open_dataset(arguments.format, arguments.dataset, config.dataset);
   Scenario& scenario = config.scenario;
   if (!dataset.has_imu) scenario.estimator.imu_enabled = false;
-  const auto estimator =
-      open_estimator(scenario.estimator_name, scenario.estimator_directory, dataset.calibration, scenario.estimator);
+  const auto estimator = localize(
+      open_estimator(scenario.estimator_name, scenario.estimator_directory, dataset.calibration, scenario.estimator),
+      arguments.map, dataset.calibration, scenario.estimator);
   const int threads = threads_of(arguments.threads);
   cv::setNumThreads(1);
   directory.open();
   catch_interrupts();
-  const RunRecord record = drive(dataset.recording, *estimator, scenario.name, threads);
+  RunRecord record = drive(dataset.recording, *estimator, scenario.name, threads);
+  record.prior_map = arguments.map.map;
   const JudgedRun run = write_run(directory, scenario, record, nullptr, make_provenance(scenario, threads));
 
   std::cout << scenario.name << ", " << scenario.estimator_name << ": " << to_string(run.verdict.status) << "\n"
@@ -82,6 +86,7 @@ void add_replay_command(CLI::App& app, Action& chosen) {
   add_set_option(*verb, arguments->overrides, "KEY=VALUE: sets one of the keys below");
   verb->add_option("--estimator", arguments->estimator, "see `plumbline list estimators`; vloam by default");
   verb->add_option("--out", arguments->out, "directory for the results")->required();
+  add_map_options(*verb, arguments->map);
   add_threads_option(*verb, arguments->threads);
   verb->callback([arguments, &chosen] { chosen = [arguments] { return replay(*arguments); }; });
 }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <opencv2/core/utility.hpp>
 
+#include "scenarios/calibration.h"
 #include "scenarios/degeneracy_lab.h"
 #include "scenarios/session.h"
 #include "tools/commands/command.h"
@@ -32,10 +33,14 @@ std::filesystem::path output_of(const RunArguments& arguments, const Scenario& s
   return std::filesystem::path("out") / (scenario.name + "-" + std::to_string(scenario.seed));
 }
 
+std::unique_ptr<Estimator> estimator_for(const RunArguments& arguments, const Scenario& scenario) {
+  return localize(open_estimator(scenario), arguments.map, calibration_of(scenario.rig), scenario.estimator);
+}
+
 /// A fault of ours ends the run, not its record: the directory says what happened.
 /// @param images  gets what was tracked in each, if it is not null
-RunRecord simulate(const Scenario& scenario, const World& world, const RayScene& rays, int threads,
-                   std::vector<TrackedImage>* images) {
+RunRecord simulate(const RunArguments& arguments, const Scenario& scenario, const World& world, const RayScene& rays,
+                   int threads, std::vector<TrackedImage>* images) {
   ProgressLine line(scenario.name);
   SessionOptions options;
   options.threads = threads;
@@ -50,8 +55,10 @@ RunRecord simulate(const Scenario& scenario, const World& world, const RayScene&
     };
   }
   try {
-    const auto estimator = open_estimator(scenario);
-    return run_session(scenario, world, rays, options, *estimator);
+    const auto estimator = estimator_for(arguments, scenario);
+    RunRecord record = run_session(scenario, world, rays, options, *estimator);
+    record.prior_map = arguments.map.map;
+    return record;
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& error) {
@@ -90,7 +97,7 @@ int run_scenario(const RunArguments& arguments) {
   directory.open();
   catch_interrupts();
   std::vector<TrackedImage> images;
-  const RunRecord record = simulate(scenario, world, rays, threads, arguments.detectors ? &images : nullptr);
+  const RunRecord record = simulate(arguments, scenario, world, rays, threads, arguments.detectors ? &images : nullptr);
   if (arguments.detectors && !interrupted()) judge_detectors(scenario, world, rays, images, directory);
   const JudgedRun run = write_run(
       directory, scenario, record,
@@ -115,6 +122,7 @@ void add_run_command(CLI::App& app, Action& chosen) {
   run->add_option("--out", arguments->out, "directory for the results; out/NAME-SEED by default");
   run->add_flag("--detectors", arguments->detectors,
                 "also judge detectors of degeneracy against the exact information, in detectors.csv");
+  add_map_options(*run, arguments->map);
   add_threads_option(*run, arguments->threads);
   run->callback([arguments, &chosen] { chosen = [arguments] { return run_scenario(*arguments); }; });
 }

@@ -45,6 +45,22 @@ std::optional<double> finite(std::optional<double> value) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
+void append_localization(std::vector<Figure>& list, const LocalizationFigures& localization) {
+  const std::string prefix = "localization.";
+  list.push_back({prefix + "matches", static_cast<double>(localization.matches), true});
+  list.push_back({prefix + "share", finite(localization.share)});
+  list.push_back({prefix + "first_s", finite(localization.first_s)});
+  list.push_back({prefix + "error_median_m", finite(localization.error_median_m)});
+  list.push_back({prefix + "error_p75_m", finite(localization.error_p75_m)});
+  list.push_back({prefix + "error_max_m", finite(localization.error_max_m)});
+  list.push_back({prefix + "overlap_median", finite(localization.overlap_median)});
+  list.push_back({prefix + "support_median", finite(localization.support_median)});
+  list.push_back({prefix + "correction_median_m", finite(localization.correction_median_m)});
+  list.push_back({prefix + "iterations_median", finite(localization.iterations_median)});
+  list.push_back({prefix + "mean_ms", finite(localization.mean_ms)});
+  list.push_back({prefix + "ms_per_s", finite(localization.ms_per_s)});
+}
+
 std::optional<double> translation_of(const std::optional<RootMeanSquare>& error) {
   return error ? std::optional(error->translation_m) : std::nullopt;
 }
@@ -68,10 +84,17 @@ void append_messages(std::vector<Figure>& list, const std::string& key, const Me
   list.push_back({"messages." + key + ".used", static_cast<double>(tally.used), true});
 }
 
+/// The pairs from a time on; all of them if there are none.
+std::vector<PosePair> settled(std::vector<PosePair> pairs, std::optional<std::int64_t> from_ns) {
+  if (!from_ns || pairs.back().stamp_ns < *from_ns) return pairs;
+  std::erase_if(pairs, [&](const PosePair& pair) { return pair.stamp_ns < *from_ns; });
+  return pairs;
+}
+
 }  // namespace
 
 TrajectoryFigures trajectory_figures(const StampedPoses& truth, const StampedPoses& estimate,
-                                     std::optional<AlignmentKind> alignment) {
+                                     std::optional<AlignmentKind> alignment, std::optional<std::int64_t> settled_ns) {
   TrajectoryFigures figures;
   figures.has_truth = !truth.empty();
   figures.duration_s = duration_s(truth);
@@ -79,7 +102,8 @@ TrajectoryFigures trajectory_figures(const StampedPoses& truth, const StampedPos
 
   const std::vector<PosePair> pairs = pair_poses_to_end(truth, estimate);
   if (pairs.empty()) return figures;
-  figures.drift_alignment = alignment ? align(pairs, *alignment) : Alignment{align_first_second(pairs), 1.0};
+  figures.drift_alignment =
+      alignment ? align(pairs, *alignment) : Alignment{align_first_second(settled(pairs, settled_ns)), 1.0};
   figures.aligned = moved_by(figures.drift_alignment, pairs);
   figures.final_error_m = position_error(figures.aligned.back());
   figures.final_error_deg = rotation_error_deg(figures.aligned.back());
@@ -101,7 +125,9 @@ TrajectoryFigures trajectory_figures(const StampedPoses& truth, const StampedPos
 RunFigures run_figures(const RunRecord& record,
                        const std::function<double(const Eigen::Vector3d&)>& distance_to_surface) {
   RunFigures figures;
-  figures.trajectory = trajectory_figures(record.ground_truth, record.estimate);
+  figures.localization = localization_figures(record);
+  figures.trajectory = trajectory_figures(record.ground_truth, record.estimate, std::nullopt,
+                                          figures.localization ? figures.localization->settled_ns : std::nullopt);
   figures.simulated_s = figures.trajectory.has_truth ? figures.trajectory.duration_s : duration_s(record.estimate);
   figures.map = map_error(record.map, figures.trajectory.drift_alignment.truth_from_estimate, distance_to_surface);
   figures.map_points = record.map.size();
@@ -146,6 +172,7 @@ std::vector<Figure> figure_list(const RunFigures& figures) {
   list.push_back({"real_time_factor", finite(figures.real_time_factor)});
   list.push_back({"estimator_real_time_factor", finite(figures.estimator_real_time_factor)});
   list.push_back({"wall_s", finite(figures.wall_s)});
+  if (figures.localization) append_localization(list, *figures.localization);
   for (const Module module : kModules) {
     const auto found = figures.modules.find(module);
     append_module(list, std::string(to_string(module)),

@@ -9,6 +9,7 @@
 #include "scenarios/run_record.h"
 #include "tools/evaluation/alignment.h"
 #include "tools/evaluation/kitti.h"
+#include "tools/evaluation/localization_figures.h"
 #include "tools/evaluation/map_error.h"
 #include "tools/evaluation/module_figures.h"
 #include "tools/evaluation/progress.h"
@@ -37,9 +38,12 @@ struct TrajectoryFigures {
   std::vector<PosePair> aligned;  ///< with drift_alignment, to the truth's end
 };
 
-/// @param alignment  of every error; without one drift, progress and the like follow the first second, ape follows se3
+/// @param alignment   of every error; without one drift, progress and the like follow the first second, ape follows se3
+/// @param settled_ns  the second from then on is meant instead: an estimate that is put on a prior map changes its
+/// frame
 TrajectoryFigures trajectory_figures(const StampedPoses& truth, const StampedPoses& estimate,
-                                     std::optional<AlignmentKind> alignment = std::nullopt);
+                                     std::optional<AlignmentKind> alignment = std::nullopt,
+                                     std::optional<std::int64_t> settled_ns = std::nullopt);
 
 /// All that a run is judged by.
 struct RunFigures {
@@ -49,8 +53,9 @@ struct RunFigures {
   std::size_t map_points = 0;
   std::optional<double> nees_mean;
   std::optional<double> estimator_real_time_factor;
-  std::optional<double> real_time_factor;  ///< filled in last, when the outputs are written
-  std::optional<double> wall_s;            ///< likewise
+  std::optional<double> real_time_factor;           ///< filled in last, when the outputs are written
+  std::optional<double> wall_s;                     ///< likewise
+  std::optional<LocalizationFigures> localization;  ///< with a prior map
   std::map<Module, ModuleFigures> modules;
   std::map<Module, MessageTally> messages;
 };

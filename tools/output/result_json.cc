@@ -83,6 +83,11 @@ std::string result_json(const RunFigures& figures, const Verdict& verdict, const
   result["kitti_scaled"] = figures.trajectory.kitti.scaled;
   result["rpe_by_second_m"] = numbers(figures.trajectory.rpe_by_second_m);
   set_nested(result, figures);
+  if (figures.localization) {
+    result["localization"]["map"] = record.prior_map;
+    result["localization"]["localized_at_end"] = figures.localization->at_end;
+    result["localization"]["outcomes"] = figures.localization->outcomes;
+  }
   result["expect_holds"] = verdict.holds;
   result["checks"] = checks_json(verdict);
   result["provenance"] = provenance_json(provenance);

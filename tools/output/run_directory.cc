@@ -36,8 +36,7 @@ void require_replaceable(const fs::path& target, const std::string& mark) {
   }
   if (fs::is_empty(target, error) && !error) return;
   if (!fs::is_regular_file(target / mark, error)) {
-    throw InputError("--out " + target.string() +
-                     ": the directory is not empty and holds no " + mark +
+    throw InputError("--out " + target.string() + ": the directory is not empty and holds no " + mark +
                      "; only a directory of the same kind is replaced");
   }
 }

@@ -15,6 +15,7 @@ void write_data(const RunDirectory& directory, const Scenario& scenario, const R
   directory.write("estimate.tum", tum_text(record.estimate));
   directory.write("degeneracy.csv", degeneracy_csv(record.health));
   directory.write("timing.csv", timing_csv(record.timing));
+  if (!record.prior_map.empty()) directory.write("localization.csv", localization_csv(record.map_matches));
   directory.write("scenario.yaml", scenario.resolved_yaml);
   write_ply(directory.staged("map.ply").string(), record.map);
 }

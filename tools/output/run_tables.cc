@@ -39,6 +39,21 @@ std::string degeneracy_csv(const std::vector<ModuleHealth>& health) {
   return text;
 }
 
+std::string localization_csv(const std::vector<MapMatch>& matches) {
+  std::string text = "stamp_ns,agreement,overlap,support,correction_m,correction_rad,iterations,wall_ms\n";
+  for (const MapMatch& match : matches) {
+    text += std::to_string(match.stamp_ns);
+    (text += ',') += to_string(match.agreement);
+    for (const double value : {match.overlap, match.support, match.correction_m, match.correction_rad}) {
+      append_general(text += ',', value, kDigits);
+    }
+    (text += ',') += std::to_string(match.iterations);
+    append_fixed(text += ',', 1e3 * match.processing_s, 6);
+    text += '\n';
+  }
+  return text;
+}
+
 std::string timing_csv(const std::vector<TimingRow>& timing) {
   std::string text = "stamp_ns,module,wall_ms\n";
   text.reserve(text.size() + timing.size() * 32);

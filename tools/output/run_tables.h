@@ -11,6 +11,9 @@ namespace plumbline {
 /// [rotation; translation]), well_conditioned.
 std::string degeneracy_csv(const std::vector<ModuleHealth>& health);
 
+/// localization.csv: what each match with the prior map found.
+std::string localization_csv(const std::vector<MapMatch>& matches);
+
 /// timing.csv: stamp_ns, module, wall_ms of every message.
 std::string timing_csv(const std::vector<TimingRow>& timing);
 

@@ -29,6 +29,14 @@ std::string module_row(Module module, const ModuleFigures& figures) {
   return row(std::string(to_string(module)), text);
 }
 
+std::string localization_row(const LocalizationFigures& figures) {
+  std::string text = figures.at_end ? "at the end, " : "not at the end, ";
+  text += with_unit(figures.share ? std::optional(100.0 * *figures.share) : std::nullopt, " % of the time, error ") +
+          with_unit(figures.error_median_m, " m median, ") + with_unit(figures.error_max_m, " m worst; matches:");
+  for (const auto& [outcome, count] : figures.outcomes) text += " " + std::to_string(count) + " " + outcome + ",";
+  return row("localized", text + " " + with_unit(figures.mean_ms, " ms each"));
+}
+
 std::string problems(const RunRecord& record, const RunFigures& figures, const Verdict& verdict) {
   std::string text;
   if (!record.fault.empty()) text += row("fault", record.fault);
@@ -65,6 +73,7 @@ std::string run_summary(const RunRecord& record, const RunFigures& figures, cons
   text += row("map", with_unit(figures.map.rmse_m, " m rms") + ", p95 " + with_unit(figures.map.p95_m, " m") + ", " +
                          std::to_string(figures.map_points) + " points");
   for (const auto& [module, module_figures] : figures.modules) text += module_row(module, module_figures);
+  if (figures.localization) text += localization_row(*figures.localization);
   text += row("speed", with_unit(figures.real_time_factor, " × real time") + ", the estimator alone " +
                            with_unit(figures.estimator_real_time_factor, " ×"));
   return text + problems(record, figures, verdict);

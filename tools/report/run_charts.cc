@@ -152,6 +152,30 @@ std::string eigenvalue_chart(const RunRecord& record, Module module, const std::
   return line_chart(chart);
 }
 
+std::string localization_charts(const RunRecord& record) {
+  std::vector<double> times;
+  ChartSeries overlap{"near the map", "c0", {}, {}};
+  ChartSeries support{"borne out, worst direction", "c1", {}, {}};
+  ChartSeries correction{"", "c0", {}, {}};
+  for (const MapMatch& match : record.map_matches) {
+    times.push_back(seconds_between(start_of(record), match.stamp_ns));
+    overlap.y.push_back(match.overlap);
+    support.y.push_back(match.support);
+    correction.y.push_back(match.correction_m);
+  }
+  overlap.x = support.x = correction.x = times;
+  LineChart shares;
+  shares.caption = "Share of what is seen";
+  shares.x = time_range(record);
+  shares.series = {overlap, support};
+  LineChart corrections;
+  corrections.caption = "Correction of the prediction";
+  corrections.unit = "m";
+  corrections.x = time_range(record);
+  corrections.series = {correction};
+  return line_chart(shares) + line_chart(corrections);
+}
+
 std::string correction_charts(const RunRecord& record) {
   const std::vector<ModuleHealth> lidar = solves_of(record, Module::kLidar);
   const std::vector<ModuleHealth> camera = solves_of(record, Module::kVision);

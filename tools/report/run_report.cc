@@ -66,7 +66,8 @@ std::string blind_map_section(const RunReport& report) {
   std::vector<PosePair> path;
   for (const auto& [stamp_ns, pose] : report.record.estimate) path.push_back({stamp_ns, pose, pose});
   return heading("Path and map", "The estimate and the map it built. The true path is not known.") +
-         "<div class=\"legend\"><span><i class=\"estimate\"></i>estimate</span><span><i style=\"--hue:#808080\"></i>mapped "
+         "<div class=\"legend\"><span><i class=\"estimate\"></i>estimate</span><span><i "
+         "style=\"--hue:#808080\"></i>mapped "
          "points</span></div>" +
          map_picture(MapView::kTop, path, report.record.map, {}) +
          map_picture(MapView::kSide, path, report.record.map, {});
@@ -93,6 +94,22 @@ std::string degeneracy_section(const RunRecord& record) {
                  "Eigenvalues of each module's data. Directions below the threshold are marked: there the module is "
                  "by-passed and the coarser prediction stands.") +
          "<div class=\"pair\">" + charts + "</div>";
+}
+
+std::string localization_section(const RunReport& report) {
+  if (!report.figures.localization) return {};
+  const LocalizationFigures& figures = *report.figures.localization;
+  std::string rows;
+  for (const auto& [outcome, count] : figures.outcomes) {
+    rows += "<tr>" + text_cell(outcome) + number_cell(std::to_string(count)) + "</tr>";
+  }
+  return heading("Localization", "Stacks of scans held against " + report.record.prior_map +
+                                     ". Where map and scans disagree, odometry goes on with the last correction.") +
+         "<div class=\"tiles\">" + figure_tile("Localized at the end", figures.at_end ? 1.0 : 0.0, "") +
+         figure_tile("Median error", figures.error_median_m, "m") +
+         figure_tile("Worst error", figures.error_max_m, "m") +
+         figure_tile("Borne out by the map", figures.support_median, "") + "</div><div class=\"pair\">" +
+         localization_charts(report.record) + wide_table(head_row({"match"}, {"count"}) + rows) + "</div>";
 }
 
 std::string camera_section(const RunRecord& record) {
@@ -157,6 +174,7 @@ std::string report_html(const RunReport& report) {
       title_block(report) + tiles(report.figures) + checks(report) + map_section(report) +
           heading("Error over time", "In the true body's axes: forward, left, up.") + "<div class=\"pair\">" +
           error_charts(record, report.figures.trajectory) + "</div>" + degeneracy_section(record) +
+          localization_section(report) +
           heading("Scan matching's corrections", "What each registration changed of the prediction it started from.") +
           "<div class=\"pair\">" + correction_charts(record) + "</div>" + camera_section(record) +
           cost_section(report.figures) + figure_table(report.figures) + provenance_section(report));

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+
+#include "estimator/estimator.h"
+
+namespace plumbline {
+
+/// How far odometry may have drifted since a known pose. The matcher's prior, the particle filter's motion model and
+/// the gate all believe odometry alike.
+struct OdometryDrift {
+  double sigma_m = 0.02;          ///< what a turn or a match of its own may shift it at once
+  double sigma_per_metre = 0.01;  ///< 1 % is ten times what it does on a good day
+  double sigma_rad = 0.003;       ///< likewise, of rotation
+  double sigma_rad_per_metre = 2e-4;
+
+  double translation_sigma(double travelled_m) const { return sigma_m + sigma_per_metre * travelled_m; }
+  double rotation_sigma(double travelled_m) const { return sigma_rad + sigma_rad_per_metre * travelled_m; }
+};
+
+/// Where a match says that the body is, and how well map and scans go together there.
+struct MatchEvidence {
+  Pose map_from_body;
+  int well_conditioned = 0;
+  double overlap = 0.0;       ///< share of what is seen that the map has surfaces near
+  double support = 0.0;       ///< see map_support()
+  double inlier_share = 0.0;  ///< of the matched features, those that fit
+};
+
+/// Decides which matches may move the estimate, and whether it is localized. Two matches in a row have to say the same
+/// before the first is believed: on a wrong map each finds a fit of its own.
+class AgreementGate {
+ public:
+  explicit AgreementGate(const Pose& map_from_start) : held_(map_from_start) {}
+
+  MapAgreement judge(const MatchEvidence& evidence, const Pose& odometry_from_body);
+
+  /// Of the last match that was believed; the start's before there is one.
+  const Pose& map_from_odometry() const { return held_; }
+  /// Where the next match had best look: as above, or where an unconfirmed one was.
+  const Pose& expected_map_from_odometry() const { return candidate_ ? *candidate_ : held_; }
+  /// Distance travelled since the last match that was believed [m].
+  double travelled_m() const { return travelled_m_; }
+  bool localized() const { return localized_; }
+
+ private:
+  MapAgreement shape(const MatchEvidence& evidence) const;
+  bool confirms(const Pose& map_from_body, const Pose& odometry_from_body) const;
+  bool too_far(const Pose& map_from_body, const Pose& odometry_from_body) const;
+
+  Pose held_;
+  std::optional<Pose> candidate_;
+  bool localized_ = false;
+  int refused_ = 0;  ///< in a row
+  double travelled_m_ = 0.0;
+  std::optional<Eigen::Vector3d> last_position_;
+};
+
+}  // namespace plumbline

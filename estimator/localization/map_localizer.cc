@@ -1,0 +1,91 @@
+#include "estimator/localization/map_localizer.h"
+
+#include <Eigen/Cholesky>
+#include <vector>
+
+#include "estimator/lidar/direction_sampling.h"
+#include "estimator/localization/map_support.h"
+#include "estimator/pipeline/module_health.h"
+
+namespace plumbline {
+namespace {
+
+// A stack covers more of the scene than a scan, so more features are worth their time, twice a second at most.
+constexpr int kPlaneBudget = 2000;
+constexpr int kEdgeBudget = 400;
+// A step below these changes nothing that a map of centimetres could tell.
+constexpr double kRotationTolerance = 2e-4;
+constexpr double kTranslationTolerance = 2e-3;
+
+// The rows of one stack share the errors of map and odometry, which do not average out.
+constexpr double kInflation = 100.0;
+
+ScanMatcherConfig matcher_config() {
+  ScanMatcherConfig config;
+  config.plane_budget = kPlaneBudget;
+  config.edge_budget = kEdgeBudget;
+  config.rotation_tolerance = kRotationTolerance;
+  config.translation_tolerance = kTranslationTolerance;
+  return config;
+}
+
+PosePrior prior_at(const Pose& predicted, double travelled_m) {
+  const OdometryDrift drift;
+  Vector6d sigma;
+  sigma << Eigen::Vector3d::Constant(drift.rotation_sigma(travelled_m)),
+      Eigen::Vector3d::Constant(drift.translation_sigma(travelled_m));
+  return {predicted, sigma.cwiseAbs2().asDiagonal()};
+}
+
+Matrix6d covariance_of(const SolveResult& solved) {
+  const int n = solved.spectrum.well_conditioned;
+  if (n == 0) return Matrix6d::Zero();
+  const Eigen::MatrixXd basis = solved.spectrum.eigenvectors.rightCols(n);
+  const Eigen::MatrixXd reduced = basis.transpose() * solved.information * basis / kInflation;
+  return basis * reduced.ldlt().solve(Eigen::MatrixXd(basis.transpose()));
+}
+
+}  // namespace
+
+MapLocalizer::MapLocalizer(const Calibration& calibration, const PriorMap& map, const Pose& map_from_start,
+                           bool remapping)
+    : matcher_(calibration, matcher_config(), remapping), occupancy_(map.surfaces), gate_(map_from_start) {
+  matcher_.insert(map.surfaces, Pose{}, /*path_m=*/0.0);
+}
+
+MatchEvidence MapLocalizer::evidence_of(const FeatureCloud& stack, const SolveResult& solved) const {
+  MatchEvidence evidence;
+  evidence.map_from_body = solved.pose;
+  evidence.well_conditioned = solved.spectrum.well_conditioned;
+  evidence.overlap = occupancy_.share_near(stack, solved.pose);
+  if (matcher_.rows().empty() || solved.features == 0) return evidence;
+  evidence.inlier_share = static_cast<double>(solved.inliers) / static_cast<double>(solved.features);
+  // The same sample that the matcher takes.
+  std::vector<FeaturePoint> planes;
+  for (const std::uint32_t i : sample_by_direction(stack.planes, kPlaneBudget)) planes.push_back(stack.planes[i]);
+  const Matrix6d expected =
+      plane_information(planes_near(planes, occupancy_, solved.pose), matcher_.rows().front().sigma_m);
+  evidence.support = map_support(expected, solved.information, ScanMatcherConfig{}.degeneracy_threshold);
+  return evidence;
+}
+
+MapFix MapLocalizer::locate(std::int64_t stamp_ns, const FeatureCloud& stack, const Pose& odometry_from_body) {
+  const StopWatch watch;
+  const Pose predicted = gate_.expected_map_from_odometry() * odometry_from_body;
+  const SolveResult solved = matcher_.match(stack, prior_at(predicted, gate_.travelled_m()));
+  const MatchEvidence evidence = evidence_of(stack, solved);
+  MapFix fix;
+  fix.health = health_of(stamp_ns, Module::kLocalization, solved, predicted, watch.seconds());
+  fix.covariance = covariance_of(solved);
+  fix.match.stamp_ns = stamp_ns;
+  fix.match.agreement = gate_.judge(evidence, odometry_from_body);
+  fix.match.overlap = evidence.overlap;
+  fix.match.support = evidence.support;
+  fix.match.correction_rad = fix.health.correction.head<3>().norm();
+  fix.match.correction_m = fix.health.correction.tail<3>().norm();
+  fix.match.iterations = solved.iterations;
+  fix.match.processing_s = fix.health.processing_s;
+  return fix;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <functional>
+
+#include "estimator/localization/prior_map.h"
+
+namespace plumbline {
+
+struct CloudPoint {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+  float intensity = 0.0F;
+};
+
+/// Who is told of a cloud as it is read: first what it has, then each of its points.
+struct CloudListener {
+  std::function<void(bool has_normals)> header;
+  std::function<void(const CloudPoint&)> point;
+};
+
+/// Reads a .ply (ascii or binary, of either byte order) or a .pcd (ascii, binary or binary_compressed) point by point,
+/// with any fields besides x, y and z; normal_x, normal_y, normal_z (or nx, ny, nz) and intensity are used. What it
+/// holds in memory does not depend on the number of points, but for binary_compressed, which is refused beyond 1 GB.
+/// @throws InputError naming the file, what was found and what is allowed
+void read_point_cloud(const std::filesystem::path& path, const CloudListener& listener);
+
+/// A map to localize on. @throws InputError, also for one without usable points
+PriorMap read_prior_map(const std::filesystem::path& path);
+
+}  // namespace plumbline
