@@ -62,6 +62,16 @@ Scatter scatter_of(const Positions& positions) {
   return result;
 }
 
+/// Of the neighbours' own normals, turned to the side of a given one; zero where they have none.
+Eigen::Vector3d mean_normal(const NearestSamples& neighbours, const Eigen::Vector3d& side) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int i = 0; i < neighbours.size(); ++i) {
+    const Eigen::Vector3d normal = neighbours[i].normal.cast<double>();
+    sum += normal.dot(side) < 0.0 ? Eigen::Vector3d(-normal) : normal;
+  }
+  return sum.stableNormalized();
+}
+
 /// Standard deviation of the fitted direction's tilt: the residuals' noise (never believed below the map's) over the
 /// lever that the neighbours give. Tilted normals are what leaks false information into a tunnel's axis.
 double tilt_sigma(double residual_variance, double spread_variance, int neighbours, int unknowns, double map_sigma_m) {
@@ -91,6 +101,7 @@ std::optional<MapPlane> fit_plane(const NearestSamples& neighbours, const FitLim
   const double tilt = tilt_sigma(s.eigenvalues[0], s.eigenvalues[1], points.count, 3, limits.map_sigma_m);
   if (tilt > limits.largest_tilt_sigma) return std::nullopt;
   const Eigen::Vector3d normal = s.eigenvectors.col(0);
+  if (mean_normal(neighbours, normal).cross(normal).norm() > limits.largest_disagreement) return std::nullopt;
   for (int i = 0; i < points.count; ++i) {
     if (std::abs(normal.dot(points[i] - s.centroid)) > limits.largest_residual_m) return std::nullopt;
   }

@@ -83,6 +83,23 @@ TEST(Correspondence, NeighboursOfASingleRingAreNoPlane) {
   EXPECT_LT(std::abs(line->across_2.x()), 0.05);
 }
 
+/// One ring on a floor ten metres away: range noise spreads its points along their beams, and the best plane through
+/// them holds the beams, seven degrees off the floor. The points' own normals, from ring to ring, know better.
+TEST(Correspondence, TheNoiseOfASingleRingIsNoPlane) {
+  const Eigen::Vector3d beam = Eigen::Vector3d(10.0, 0.0, -1.2).normalized();
+  RandomStream random(1, "ring");
+  std::vector<MapSample> samples;
+  for (int k = 0; k < 10; ++k) {
+    MapSample s;
+    s.position = Eigen::Vector3d(0.0, 0.2 * k, 0.0) + 0.2 * random.gaussian() * beam;
+    s.normal = Eigen::Vector3f::UnitZ();
+    samples.push_back(s);
+  }
+  EXPECT_FALSE(fit_plane(offered(samples), {}).has_value());
+  for (MapSample& s : samples) s.normal = beam.cross(Eigen::Vector3d::UnitY()).cast<float>();
+  EXPECT_TRUE(fit_plane(offered(samples), {}).has_value());  // it is the normals that told
+}
+
 TEST(Correspondence, ABlobIsNeitherPlaneNorLine) {
   const auto samples = grid(3, 0.3, 0.3);
   EXPECT_FALSE(fit_plane(offered(samples), {}).has_value());
