@@ -17,6 +17,9 @@ constexpr double kAnchorMaxScaleChange = 0.08;
 constexpr double kAnchorMaxRoll = 0.1;      // [rad]
 constexpr double kDepthImagePause_s = 0.1;  // between depth images used: the map keeps seconds of them
 constexpr double kLeastShareOfSigma = 0.5;
+// Of a triangulated depth: what the motions it was measured with had wrong in common, which no averaging cuts. Against
+// exact motion, four in five depths taken at 25 m/s lie within 0.91 to 1.12 of what they should be, for a claimed 3 %.
+constexpr double kMotionShare = 0.08;
 constexpr std::int64_t kRiddenMemory_ns = 20'000'000'000;
 
 DepthMapConfig depth_config(const Calibration& calibration, const FeatureSetConfig& config) {
@@ -212,6 +215,7 @@ void FeatureSet::give_depth(const Pose& world_from_body, std::int64_t reference_
     } else if (converged(f.triangulated)) {
       f.depth_source = DepthSource::kTriangulated;
       f.sighting.depth = f.triangulated;
+      f.sighting.depth.sigma = std::hypot(f.triangulated.sigma, kMotionShare * f.triangulated.mean);
     }
   }
 }
