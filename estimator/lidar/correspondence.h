@@ -33,7 +33,7 @@ struct FitLimits {
   double largest_tilt_sigma = 0.03;  ///< [rad] of the fitted normal or direction
   /// [rad] between a plane's normal and the mean of its neighbours' own. Where a beam grazes, range noise is the
   /// largest spread across a ring, and the plane through a single ring's points contains the beam.
-  double largest_disagreement = 0.05;
+  double largest_disagreement = 1.0;
 };
 
 std::optional<MapPlane> fit_plane(const NearestSamples& neighbours, const FitLimits& limits);

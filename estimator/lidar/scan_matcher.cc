@@ -97,6 +97,7 @@ struct ScanMatcher::Impl {
     plane_limits.map_sigma_m = edge_limits.map_sigma_m = 0.5 * calibration.lidar_range_sigma_m;
     edge_limits.largest_tilt_sigma = settings.largest_edge_tilt;
     plane_limits.largest_tilt_sigma = settings.largest_plane_tilt;
+    plane_limits.largest_disagreement = settings.largest_plane_disagreement;
   }
 
   ScanMatcherConfig config;

@@ -28,7 +28,10 @@ struct ScanMatcherConfig {
   int edge_budget = 300;                ///< edge features matched of one scan
   int least_features = 50;              ///< fewer matched: nothing is well-conditioned
   double largest_plane_tilt = 0.03;     ///< [rad] one sigma of a fitted plane's normal
-  double largest_edge_tilt = 0.05;      ///< [rad] one sigma of a fitted line's direction
+  /// [rad] between a fitted plane and its points' own normals, which is several times what biases of the rings tilt
+  /// these by; 1 where normals are rougher: of a single line of a turned scanner, or of a map without rings
+  double largest_plane_disagreement = 0.05;
+  double largest_edge_tilt = 0.05;  ///< [rad] one sigma of a fitted line's direction
 };
 
 /// How range biases make successive matches drift. A bias moves a feature along its beam, and as the sensor goes past

@@ -22,6 +22,7 @@ constexpr double kInflation = 100.0;
 
 ScanMatcherConfig matcher_config() {
   ScanMatcherConfig config;
+  config.largest_plane_disagreement = 1.0;
   config.plane_budget = kPlaneBudget;
   config.edge_budget = kEdgeBudget;
   config.rotation_tolerance = kRotationTolerance;

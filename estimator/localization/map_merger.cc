@@ -57,6 +57,7 @@ Overlap overlap_of(const FeatureCloud& b, const Occupancy& a, const Pose& a_from
 
 ScanMatcher matcher_on(const PriorMap& map) {
   ScanMatcherConfig config;
+  config.largest_plane_disagreement = 1.0;
   config.plane_budget = kPlaneBudget;
   config.edge_budget = kEdgeBudget;
   config.max_iterations = 20;

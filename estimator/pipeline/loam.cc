@@ -33,6 +33,12 @@ MessageUse use_of(ImuUse imu) {
   return use;
 }
 
+ScanMatcherConfig matcher_config() {
+  ScanMatcherConfig config;
+  config.largest_plane_disagreement = 1.0;
+  return config;
+}
+
 }  // namespace
 
 Loam::Loam(const Calibration& calibration, const EstimatorConfig& config, ImuUse imu)
@@ -43,7 +49,7 @@ Loam::Loam(const Calibration& calibration, const EstimatorConfig& config, ImuUse
       gate_(use_of(imu)),
       initializer_(calibration),
       odometry_(calibration, config.remapping),
-      matcher_(calibration, ScanMatcherConfig{}, config.remapping) {}
+      matcher_(calibration, matcher_config(), config.remapping) {}
 
 void Loam::add(const ImuSample& received) {
   const std::optional<ImuSample> admitted = gate_.admit(received);
