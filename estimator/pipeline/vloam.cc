@@ -190,7 +190,7 @@ SolveResult Vloam::match(const FeatureCloud& features, std::int64_t end_ns, cons
   const Matrix6d d_image_d_end = adjoint(end_from_image.inverse());
   const Pose keyframe_from_map = filter_->world_from_keyframe().inverse() * world_from_end * map_from_body.inverse();
   int image_features = 0;
-  const SolveResult solved = matcher_.match(features, prior, [&](const Pose& pose, ResidualRows& rows) {
+  SolveResult solved = matcher_.match(features, prior, [&](const Pose& pose, ResidualRows& rows) {
     ResidualRows of_image;
     vision_.linearize(keyframe_from_map * pose * end_from_image, of_image);
     image_features = of_image.feature_count();
