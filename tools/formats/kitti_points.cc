@@ -5,10 +5,9 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
-#include <sstream>
 
 #include "scenarios/input_error.h"
-#include "sim/text_fields.h"
+#include "tools/formats/point_cloud_file.h"
 #include "tools/formats/text_table.h"
 
 namespace plumbline {
@@ -19,7 +18,6 @@ static_assert(std::endian::native == std::endian::little, "fields are copied as 
 // 8 million points; the densest head gives a quarter of a million.
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{128} << 20;
 constexpr std::size_t kMostPoints = 8'000'000;
-constexpr std::size_t kMostHeaderBytes = 4096;
 constexpr float kFurthest_m = 1e4F;
 constexpr std::size_t kBinPointBytes = 16;
 
@@ -60,150 +58,21 @@ std::vector<LidarPoint> points_of_bin(const std::filesystem::path& path, const s
   return points;
 }
 
-/// A PCD file's header, as far as points need it.
-struct PcdLayout {
-  std::size_t points = 0;
-  std::size_t stride = 0;                      // bytes of a point
-  std::size_t columns = 0;                     // numbers of a point
-  std::size_t offset_bytes[4] = {0, 0, 0, 0};  // of x, y, z, intensity
-  std::size_t column_of[4] = {0, 0, 0, 0};
-  bool has[4] = {false, false, false, false};
-  bool binary = true;
-  std::size_t data_at = 0;
-};
-
-/// Reads "KEY value value…" lines up to DATA.
-class PcdHeader {
- public:
-  PcdHeader(const std::filesystem::path& path, const std::string& bytes) : path_(path), bytes_(bytes) {}
-
-  PcdLayout read() {
-    while (!data_found_) read_line();
-    lay_out();
-    return layout_;
-  }
-
- private:
-  using Words = std::vector<std::string_view>;
-
-  [[noreturn]] void fail(const std::string& what) const { throw InputError(path_.string() + ": PCD header: " + what); }
-
-  void read_line() {
-    const std::size_t end = bytes_.find('\n', at_);
-    if (end == std::string::npos || end > kMostHeaderBytes) fail("no DATA line within its first 4096 bytes");
-    line_ = bytes_.substr(at_, end - at_);
-    at_ = end + 1;
-    const Words words = split_fields(line_);
-    if (words.empty() || words[0].front() == '#') return;
-    const Words values(words.begin() + 1, words.end());
-    if (words[0] == "FIELDS") names_.assign(values.begin(), values.end());
-    if (words[0] == "SIZE") sizes_ = counts_in(values);
-    if (words[0] == "COUNT") counts_ = counts_in(values);
-    if (words[0] == "TYPE") types_.assign(values.begin(), values.end());
-    if (words[0] == "POINTS" && values.size() == 1) layout_.points = counts_in(values)[0];
-    if (words[0] == "DATA") take_data(values);
-  }
-
-  void take_data(const Words& values) {
-    if (values.size() != 1 || (values[0] != "binary" && values[0] != "ascii")) {
-      fail("DATA is neither binary nor ascii");
-    }
-    layout_.binary = values[0] == "binary";
-    layout_.data_at = at_;
-    data_found_ = true;
-  }
-
-  std::vector<std::size_t> counts_in(const Words& values) const {
-    std::vector<std::size_t> counts;
-    for (const std::string_view word : values) {
-      const auto value = parse_number(word);
-      if (!value || *value < 0.0 || *value > static_cast<double>(kMostPoints)) {
-        fail(quoted_field(word) + " is not a number to 8 million");
-      }
-      counts.push_back(static_cast<std::size_t>(*value));
-    }
-    return counts;
-  }
-
-  void lay_out() {
-    static const std::vector<std::string> kWanted{"x", "y", "z", "intensity"};
-    if (counts_.empty()) counts_.assign(names_.size(), 1);
-    if (names_.empty() || names_.size() > 64 || sizes_.size() != names_.size() || counts_.size() != names_.size() ||
-        types_.size() != names_.size()) {
-      fail("FIELDS, SIZE, TYPE and COUNT do not agree");
-    }
-    for (std::size_t i = 0; i < names_.size(); ++i) {
-      const auto wanted = std::find(kWanted.begin(), kWanted.end(), names_[i]);
-      if (wanted != kWanted.end()) {
-        if (sizes_[i] != 4 || types_[i] != "F" || counts_[i] != 1) fail("field " + names_[i] + " is no float32");
-        const auto k = static_cast<std::size_t>(wanted - kWanted.begin());
-        layout_.offset_bytes[k] = layout_.stride;
-        layout_.column_of[k] = layout_.columns;
-        layout_.has[k] = true;
-      }
-      if (sizes_[i] > 8 || counts_[i] > 4096) fail("field " + quoted_field(names_[i]) + " is too large");
-      layout_.stride += sizes_[i] * counts_[i];
-      layout_.columns += counts_[i];
-    }
-    if (!layout_.has[0] || !layout_.has[1] || !layout_.has[2]) fail("no fields x, y and z");
-  }
-
-  const std::filesystem::path& path_;
-  const std::string& bytes_;
-  std::size_t at_ = 0;
-  std::string line_;
-  bool data_found_ = false;
-  std::vector<std::string> names_;
-  std::vector<std::string> types_;
-  std::vector<std::size_t> sizes_;
-  std::vector<std::size_t> counts_;
-  PcdLayout layout_;
-};
-
-std::vector<LidarPoint> points_of_ascii(const std::filesystem::path& path, const std::string& bytes,
-                                        const PcdLayout& layout) {
+std::vector<LidarPoint> points_of_pcd(const std::filesystem::path& path) {
   std::vector<LidarPoint> points;
-  std::istringstream text(bytes.substr(layout.data_at));
-  std::string line;
-  for (std::size_t i = 0; i < layout.points; ++i) {
-    const auto words = std::getline(text, line) ? split_fields(line) : std::vector<std::string_view>{};
-    if (words.size() != layout.columns)
-      throw InputError(path.string() + ": point " + std::to_string(i) + ": cut short");
-    float xyzi[4] = {0.0F, 0.0F, 0.0F, 0.0F};
-    for (std::size_t k = 0; k < 4; ++k) {
-      if (layout.has[k]) xyzi[k] = static_cast<float>(parse_number(words[layout.column_of[k]]).value_or(NAN));
-    }
-    add_point(xyzi, points);
-  }
-  return points;
-}
-
-std::vector<LidarPoint> points_of_pcd(const std::filesystem::path& path, const std::string& bytes) {
-  const PcdLayout layout = PcdHeader(path, bytes).read();
-  if (!layout.binary) return points_of_ascii(path, bytes, layout);
-  // Writers round the file up to whole memory pages: there may be more than the points, but not less.
-  if (bytes.size() - layout.data_at < layout.points * layout.stride) {
-    throw InputError(path.string() + ": cut short: " + std::to_string(layout.points) + " points of " +
-                     std::to_string(layout.stride) + " bytes do not fit");
-  }
-  std::vector<LidarPoint> points;
-  points.reserve(layout.points);
-  for (std::size_t i = 0; i < layout.points; ++i) {
-    const char* start = bytes.data() + layout.data_at + i * layout.stride;
-    float xyzi[4] = {0.0F, 0.0F, 0.0F, 0.0F};
-    for (std::size_t k = 0; k < 4; ++k) {
-      if (layout.has[k]) std::memcpy(&xyzi[k], start + layout.offset_bytes[k], sizeof(float));
-    }
-    add_point(xyzi, points);
-  }
+  const auto take = [&](const CloudPoint& point) {
+    if (points.size() == kMostPoints) throw InputError(path.string() + ": found more than 8 million points");
+    const Eigen::Vector3f position = point.position.cast<float>();
+    add_point({position.x(), position.y(), position.z(), point.intensity}, points);
+  };
+  read_point_cloud(path, {[](bool /*has_normals*/) {}, take});
   return points;
 }
 
 }  // namespace
 
 std::vector<LidarPoint> read_kitti_points(const std::filesystem::path& path) {
-  const std::string bytes = read_bounded_file(path, kMostBytes);
-  return path.extension() == ".pcd" ? points_of_pcd(path, bytes) : points_of_bin(path, bytes);
+  return path.extension() == ".pcd" ? points_of_pcd(path) : points_of_bin(path, read_bounded_file(path, kMostBytes));
 }
 
 void drop_unusable(std::vector<LidarPoint>& points) {

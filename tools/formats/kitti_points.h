@@ -11,8 +11,8 @@
 /// the left.
 namespace plumbline {
 
-/// A .bin (x, y, z, intensity as float32) or a .pcd (binary or ascii, of float32 fields x, y, z and intensity, which
-/// may be missing). Times and rings are left at 0. @throws InputError
+/// A .bin (x, y, z, intensity as float32) or a .pcd (see read_point_cloud(); the intensity may be missing), of at most
+/// 8 million points. Times and rings are left at 0. @throws InputError
 std::vector<LidarPoint> read_kitti_points(const std::filesystem::path& path);
 
 /// Drops points that are not finite, beyond 10 km or at the origin.

@@ -1,5 +1,7 @@
 #include "tools/formats/point_cloud_file.h"
 
+#include <pcl/io/lzf.h>
+
 #include <algorithm>
 #include <charconv>
 #include <fstream>
@@ -12,7 +14,6 @@
 #include <vector>
 
 #include "scenarios/input_error.h"
-#include "tools/formats/lzf.h"
 #include "tools/formats/point_record.h"
 
 namespace plumbline {
@@ -174,7 +175,10 @@ void read_compressed(std::istream& file, const PointRecord& record, std::uint64_
   file.seekg(start);
   std::string data(packed, '\0');
   file.read(data.data(), static_cast<std::streamsize>(packed));
-  const std::string columns = unpack_lzf(data, plain);
+  std::string columns(plain, '\0');
+  if (pcl::lzfDecompress(data.data(), packed, columns.data(), plain) != plain) {
+    refuse("its compressed points are damaged");
+  }
   for (std::uint64_t k = 0; k < points; ++k) listener.point(record.from_columns(columns.data(), points, k));
 }
 

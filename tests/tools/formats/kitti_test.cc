@@ -98,15 +98,19 @@ TEST_F(PcdFile, IsReadInBothNotations) {
 }
 
 TEST_F(PcdFile, DamagedOnesAreRefused) {
-  EXPECT_THAT(input_message_of([&] { read(header("3", "binary") + binary({1, 2, 3, 4})); }), HasSubstr("cut short"));
-  EXPECT_THAT(input_message_of([&] { read(header("3", "ascii") + "1 2 3 4\n"); }), HasSubstr("cut short"));
-  EXPECT_THAT(input_message_of([&] { read(header("1e30", "binary")); }), HasSubstr("not a number to 8 million"));
-  EXPECT_THAT(input_message_of([&] { read(header("2", "binary_compressed")); }), HasSubstr("neither binary nor ascii"));
-  EXPECT_THAT(input_message_of([&] { read(std::string(10'000, 'x')); }), HasSubstr("no DATA line"));
+  EXPECT_THAT(input_message_of([&] {
+                read(header("3", "binary") + binary({1, 2, 3, 4}));
+              }),
+              HasSubstr("ends after 1 of 3 points"));
+  EXPECT_THAT(input_message_of([&] { read(header("3", "ascii") + "1 2 3 4\n"); }),
+              HasSubstr("ends after 1 of 3 points"));
+  EXPECT_THAT(input_message_of([&] { read(header("1e30", "binary")); }), HasSubstr("found '1e30' for a count"));
+  EXPECT_THAT(input_message_of([&] { read(header("2", "binary_compressed")); }), HasSubstr("ends before its points"));
+  EXPECT_THAT(input_message_of([&] { read(std::string(10'000, 'x')); }), HasSubstr("no line 'DATA'"));
   EXPECT_THAT(input_message_of([&] { read("FIELDS x y\nSIZE 4 4\nTYPE F F\nPOINTS 1\nDATA binary\n"); }),
-              HasSubstr("no fields x, y and z"));
+              HasSubstr("no x, y and z"));
   EXPECT_THAT(input_message_of([&] { read("FIELDS x y z\nSIZE 4 4\nTYPE F F\nPOINTS 1\nDATA binary\n"); }),
-              HasSubstr("do not agree"));
+              HasSubstr("do not go together"));
 }
 
 TEST(KittiStamps, ReadsDatesExactly) {

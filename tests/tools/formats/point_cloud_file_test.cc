@@ -11,7 +11,6 @@
 #include "estimator/estimator.h"
 #include "scenarios/input_error.h"
 #include "tests/scenarios/temporary_directory.h"
-#include "tools/formats/lzf.h"
 
 namespace plumbline {
 namespace {
@@ -130,16 +129,6 @@ TEST_F(PointCloudFile, BelievesNoSizeThatTheFileDoesNotHold) {
   EXPECT_THAT(complaint("c.pcd", pcd("binary_compressed", "2", std::string("\x02\0\0\0\x18\0\0\0", 8) + "\xe0\x01")),
               HasSubstr("damaged"));
   EXPECT_THAT(complaint("d.ply", ply("binary_little_endian", "90000000000000", "")), HasSubstr("ends after 0 of"));
-}
-
-TEST(Lzf, CopiesMayOverlapWhatTheyMake) {
-  // "ab" as literals, then 6 bytes from two back.
-  EXPECT_EQ(unpack_lzf(std::string("\x01"
-                                   "ab"
-                                   "\x80\x01",
-                                   5),
-                       8),
-            "abababab");
 }
 
 }  // namespace
