@@ -73,7 +73,9 @@ class InertialFilter {
   static Jacobian map_jacobian();
   Jacobian motion_jacobian(const Pose& world_from_clone, int clone) const;
   void clone_pose(int clone);
-  void update(const SolveResult& solved, const Pose& predicted, const Jacobian& d_pose_d_error, double inflation);
+  /// @param shared  covariance of what all rows err by alike, right perturbation of the solved pose
+  void update(const SolveResult& solved, const Pose& predicted, const Jacobian& d_pose_d_error, double inflation,
+              const Matrix6d& shared);
   void apply(const ErrorState& correction);
   void symmetrize();
 

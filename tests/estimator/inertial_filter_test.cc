@@ -116,6 +116,46 @@ TEST(InertialFilter, TakesNothingAlongDirectionsThatWereNotSolved) {
   EXPECT_LT((before.local(other.filter.state().world_from_body) - x_before).norm(), 1e-12);
 }
 
+/// A solution that is a metre off moves a filter that knows its pose to centimetres by a fraction of what one within
+/// its own sigmas would, however sure it says it is.
+TEST(InertialFilter, HardlyFollowsASolutionThatTheMotionRulesOut) {
+  const auto moved_by = [](double offset_m) {
+    Flight run = run_with_fixes(1, 20.0);
+    const Pose before = run.filter.state().world_from_body;
+    Vector6d offset = Vector6d::Zero();
+    offset[4] = offset_m;
+    run.filter.update_pose(pose_fix(before.retract(offset)), before, 1.0);
+    return before.local(run.filter.state().world_from_body)[4] / offset_m;
+  };
+  // The innovation's length of 60 to 100 sigmas makes its noise hundreds of times larger.
+  EXPECT_LT(moved_by(1.0), 0.1 * moved_by(0.01));
+  EXPECT_GT(moved_by(0.01), 0.05) << "or the line above would compare nothing with nothing";
+}
+
+/// Many features average their own errors away, but not the factor that their depths share.
+TEST(InertialFilter, ManyFeaturesDoNotMakeTheWayFromTheKeyframeCertain) {
+  Flight run = run_with_fixes(1, 20.0);
+  const Pose keyframe = run.filter.state().world_from_body;
+  run.filter.set_keyframe(keyframe);
+  InertialSegment second;
+  second.start_ns = run.filter.state().stamp_ns;
+  second.end_ns = second.start_ns + 1'000'000'000;
+  second.rate = run.filter.state().gyro_bias;
+  second.force = keyframe.rotation.conjugate() * -run.filter.state().gravity_in_world + run.filter.state().accel_bias;
+  run.filter.predict(second);
+  const Pose moved = keyframe.inverse() * run.filter.state().world_from_body;
+  ASSERT_GT(moved.translation.norm(), 0.5);
+  SolveResult sure = pose_fix(moved);
+  sure.information *= 1e8;
+  run.filter.update_keyframe_motion(sure, moved, 1.0);
+  const Eigen::Vector3d way = (moved.rotation.conjugate() * moved.translation).normalized();
+  const Eigen::Matrix3d covariance = run.filter.keyframe_motion_covariance().bottomRightCorner<3, 3>();
+  // 1 % of the way, but for what the inertial prediction knew by itself, 0.25 %; across it the solution counts as it
+  // is.
+  EXPECT_GT(std::sqrt(way.dot(covariance * way)), 0.002 * moved.translation.norm());
+  EXPECT_LT(std::sqrt(way.unitOrthogonal().dot(covariance * way.unitOrthogonal())), 1e-4);
+}
+
 TEST(InertialFilter, KeyframeMotionStartsCertain) {
   Flight run = run_with_fixes(2, 5.0);
   run.filter.set_keyframe(run.filter.state().world_from_body);
