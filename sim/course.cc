@@ -66,6 +66,20 @@ double acceleration_of(const MotionConfig& config) {
   return config.acceleration_mps2 * config.speed_factor * config.speed_factor;
 }
 
+double route_speed(const MotionConfig& config, double along_m) {
+  double speed_mps = config.speed_mps;
+  for (const MotionConfig::Stretch& stretch : config.route_speeds) {
+    if (along_m >= stretch.from_m) speed_mps = stretch.speed_mps;
+  }
+  return speed_mps;
+}
+
+double top_route_speed(const MotionConfig& config) {
+  double top_mps = config.speed_mps;
+  for (const MotionConfig::Stretch& stretch : config.route_speeds) top_mps = std::max(top_mps, stretch.speed_mps);
+  return top_mps;
+}
+
 /// The straight legs between way-points: where each ends, its speed and its heading.
 struct Legs {
   std::vector<double> end_m;
@@ -150,13 +164,13 @@ Course course_along(const Path& path, const MotionConfig& config, Turning turnin
   validate_or_throw(config);
   const bool by_legs = config.route.empty();
   const Legs legs = by_legs ? legs_of(config) : Legs{};
-  const double speed_mps = config.speed_mps * config.speed_factor;
   // Rounding shortens the legs a little; their speeds change at the same share of the way.
   const double leg_scale = by_legs ? legs.end_m.back() / path.length_m() : 1.0;
   const double lateral_mps2 = config.lateral_acceleration_mps2 * config.speed_factor * config.speed_factor;
   std::size_t leg = 0;
   const auto limit = [&](double along_m) {
-    const double own = by_legs ? legs.mps[leg = legs.at(along_m * leg_scale, leg)] : speed_mps;
+    const double own = by_legs ? legs.mps[leg = legs.at(along_m * leg_scale, leg)]
+                               : route_speed(config, along_m) * config.speed_factor;
     const PathPoint point = path.at(along_m);
     const double bend = turning == Turning::kInAir ? point.curvature.norm() : std::abs(point.turn());
     return std::min(own, std::sqrt(lateral_mps2 / std::max(bend, 1e-9)));
@@ -172,7 +186,8 @@ Course course_along(const Path& path, const MotionConfig& config, Turning turnin
     course.yaw.push_back(vertical ? near : unwrapped(point.heading(), near));
   }
   course.yaw = smoothed(std::move(course.yaw), config.smoothing_s);
-  const double top_mps = by_legs ? *std::max_element(legs.mps.begin(), legs.mps.end()) : speed_mps;
+  const double top_mps =
+      by_legs ? *std::max_element(legs.mps.begin(), legs.mps.end()) : top_route_speed(config) * config.speed_factor;
   course.effort = efforts(course.along_m, top_mps);
   return course;
 }
