@@ -6,18 +6,6 @@
 #include "estimator/geometry/so3.h"
 
 namespace plumbline {
-namespace {
-
-/// Both worlds are level, so that only a heading and a place are between them.
-Pose world_from_frame_at(const Pose& world_from_body, const Pose& frame_from_body) {
-  const Eigen::Matrix3d turn = (world_from_body.rotation * frame_from_body.rotation.conjugate()).toRotationMatrix();
-  const double heading = std::atan2(turn(1, 0) - turn(0, 1), turn(0, 0) + turn(1, 1));
-  const Eigen::Quaterniond rotation = rotation_from_rpy({0.0, 0.0, heading});
-  return {rotation, world_from_body.translation - rotation * frame_from_body.translation};
-}
-
-}  // namespace
-
 FlightGuidance::FlightGuidance(const Scenario& scenario, const Pose& world_from_body_on_pad)
     : world_from_body_on_pad_(world_from_body_on_pad),
       body_from_craft_(
@@ -44,7 +32,7 @@ void FlightGuidance::let_through(std::int64_t now_ns) {
 
 void FlightGuidance::lay_out(std::int64_t now_ns) {
   let_through(now_ns);
-  if (current_) world_from_frame_ = world_from_frame_at(world_from_body_on_pad_, current_->frame_from_body);
+  if (current_) world_from_frame_ = world_from_body_on_pad_ * current_->frame_from_body.inverse();
 }
 
 std::optional<FlightState> FlightGuidance::believed(std::int64_t now_ns) {

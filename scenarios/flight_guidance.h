@@ -12,8 +12,9 @@
 namespace plumbline {
 
 /// What a craft's controller knows of the craft: the estimator's outputs, each from a latency after the IMU sample
-/// that brought it, with the turn rate that this sample showed. Nothing here comes from the truth but the pad's place
-/// and heading, which lay the mission out in the estimate's world.
+/// that brought it, with the turn rate that this sample showed. Nothing here comes from the truth but the pad's pose,
+/// as surveyed: it lays the mission out in the estimate's world, which is as little level as the accelerometers are
+/// without bias.
 class FlightGuidance {
  public:
   /// @param world_from_body_on_pad  of the IMU while the craft stands on its pad
