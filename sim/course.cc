@@ -62,6 +62,14 @@ std::vector<T> smoothed(std::vector<T> values, double total_width_s) {
 
 double unwrapped(double angle, double near) { return angle + 2.0 * M_PI * std::round((near - angle) / (2.0 * M_PI)); }
 
+double first_heading(const Path& path, const std::vector<double>& along_m, double least_level) {
+  for (const double s : along_m) {
+    const PathPoint point = path.at(s);
+    if (point.tangent.head<2>().norm() >= least_level) return point.heading();
+  }
+  return 0.0;
+}
+
 double acceleration_of(const MotionConfig& config) {
   return config.acceleration_mps2 * config.speed_factor * config.speed_factor;
 }
@@ -178,12 +186,14 @@ Course course_along(const Path& path, const MotionConfig& config, Turning turnin
   Course course;
   course.along_m =
       smoothed(with_rests(travel(path.length_m(), limit, acceleration_of(config)), config), config.smoothing_s);
+  // A steep climb's bow to one side is no heading: a craft that rises from its pad already looks where it will go.
+  const double least_level = turning == Turning::kInAir ? 0.3 : 1e-3;
+  double yaw = first_heading(path, course.along_m, least_level);
   for (const double along_m : course.along_m) {
     const PathPoint point = path.at(along_m);
     course.position.push_back(point.position);
-    const double near = course.yaw.empty() ? 0.0 : course.yaw.back();
-    const bool vertical = point.tangent.head<2>().norm() < 1e-3;
-    course.yaw.push_back(vertical ? near : unwrapped(point.heading(), near));
+    if (point.tangent.head<2>().norm() >= least_level) yaw = unwrapped(point.heading(), yaw);
+    course.yaw.push_back(yaw);
   }
   course.yaw = smoothed(std::move(course.yaw), config.smoothing_s);
   const double top_mps =
