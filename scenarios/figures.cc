@@ -18,6 +18,13 @@ const std::vector<std::string>& result_figures() {
       "map_rmse_m",
       "map_p95_m",
       "nees_mean",
+      "waypoints_missed",
+      "collisions",
+      "clearance_min_m",
+      "tracking_error_rms_m",
+      "tracking_error_max_m",
+      "estimate_error_max_m",
+      "control_error_max_m",
       "real_time_factor",
       "estimator_real_time_factor",
   };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "scenarios/calibration.h"
@@ -14,13 +15,19 @@ constexpr std::int64_t kKept_ns = 5'000'000'000;
 
 std::int64_t period_ns(double rate_hz) { return std::llround(1e9 / rate_hz); }
 
+std::int64_t longest_reach_ns(const MountedCamera& mounted) {
+  const Shutter shutter = shutter_of(mounted.model, mounted.effects, mounted.model.exposure.max_exposure_s);
+  return std::llround(0.5e9 * shutter.span_s());
+}
+
 }  // namespace
 
 FrameStream::FrameStream(const Scenario& scenario, const Surroundings& surroundings, const Trajectory& world_from_body,
                          int renderer_threads)
     : scenario_(scenario),
       surroundings_(surroundings),
-      end_ns_(world_from_body.end_ns()),
+      world_from_body_(world_from_body),
+      reach_ns_(longest_reach_ns(scenario.rig.camera)),
       renderer_threads_(renderer_threads),
       driver_(world_from_body) {
   add_grey_cameras();
@@ -62,11 +69,21 @@ void FrameStream::add_depth_camera(const MountedDepthCamera& mounted) {
                       }});
 }
 
+FrameStream::Source& FrameStream::next_source() {
+  return *std::min_element(sources_.begin(), sources_.end(),
+                           [](const Source& a, const Source& b) { return a.next_ns() < b.next_ns(); });
+}
+
+std::int64_t FrameStream::next_over_ns() const {
+  std::int64_t stamp_ns = std::numeric_limits<std::int64_t>::max();
+  for (const Source& source : sources_) stamp_ns = std::min(stamp_ns, source.next_ns());
+  return stamp_ns + reach_ns_;
+}
+
 std::unique_ptr<SensorMessage> FrameStream::next() {
-  Source& source = *std::min_element(sources_.begin(), sources_.end(),
-                                     [](const Source& a, const Source& b) { return a.next_ns() < b.next_ns(); });
+  Source& source = next_source();
   const std::int64_t stamp_ns = source.next_ns();
-  if (stamp_ns > end_ns_) return nullptr;
+  if (stamp_ns > world_from_body_.end_ns()) return nullptr;
   auto message = timed_message([&] { return source.take(stamp_ns, source.frame); }, stamp_ns);
   source.frame += scenario_.rig.decimation;
   driver_.forget_before(stamp_ns - kKept_ns);

@@ -25,6 +25,8 @@ class FrameStream {
 
   /// The next frame; null after the motion's end.
   std::unique_ptr<SensorMessage> next();
+  /// When the last light that the next frame can see has fallen: what it needs to know of the motion.
+  std::int64_t next_over_ns() const;
 
  private:
   using Payload = SensorPayload;
@@ -38,6 +40,7 @@ class FrameStream {
     std::int64_t next_ns() const { return frame * period_ns + period_ns / 2; }
   };
 
+  Source& next_source();
   Renderer& add_renderer(const RenderView& view, bool depth);
   void add_grey_camera(const Pose& pack_from_camera, Camera camera, int camera_id, Renderer& renderer);
   void add_grey_cameras();
@@ -45,7 +48,8 @@ class FrameStream {
 
   const Scenario& scenario_;
   const Surroundings surroundings_;
-  const std::int64_t end_ns_;
+  const Trajectory& world_from_body_;
+  const std::int64_t reach_ns_;  // from a stamp to the last light, at the longest exposure
   const int renderer_threads_;
   RigDriver driver_;
   std::vector<std::unique_ptr<Renderer>> renderers_;

@@ -8,7 +8,7 @@ ImuStream::ImuStream(const Scenario& scenario, const Trajectory& world_from_body
 }
 
 std::unique_ptr<SensorMessage> ImuStream::next() {
-  const std::int64_t stamp_ns = (sample_ + decimation_) * imu_.period_ns();
+  const std::int64_t stamp_ns = next_over_ns();
   if (stamp_ns > world_from_body_.end_ns()) return nullptr;
   const auto make = [&] {
     // Those in between are made, too: the noise goes on whether or not a sample is sent.

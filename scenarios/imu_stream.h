@@ -18,6 +18,8 @@ class ImuStream {
 
   /// The next sample; null after the motion's end.
   std::unique_ptr<SensorMessage> next();
+  /// When the next sample's interval ends: what it needs to know of the motion.
+  std::int64_t next_over_ns() const { return (sample_ + decimation_) * imu_.period_ns(); }
 
  private:
   const Trajectory& world_from_body_;

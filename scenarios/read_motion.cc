@@ -22,6 +22,8 @@ constexpr Range kRouteLength_m{1.0, 100'000.0};
 constexpr Range kHeight_m{-10.0, 500.0};
 constexpr Range kRoughness_m{0.0, 0.2};
 constexpr Range kWind_mps{0.0, 20.0};
+// The true motion is known so long after it was flown, at the least.
+constexpr Range kLatency_ms{5.0, 2000.0};
 constexpr Range kSwing_deg{0.0, 90.0};
 constexpr Range kSwing_hz{0.01, 20.0};
 
@@ -77,6 +79,23 @@ void read_vehicle(ConfigReader& reader, MotionConfig& config) {
   if (reader.read_choice("vehicle", names, index)) config = vehicle_library()[index].defaults;
 }
 
+MotionConfig::Stretch stretch_of(const ConfigNode& node, const std::string& key) {
+  MotionConfig::Stretch stretch;
+  ConfigReader reader(node, key);
+  const bool from = reader.read("from_m", stretch.from_m, kRouteStart_m);
+  const bool speed = reader.read("speed_mps", stretch.speed_mps, kSpeed_mps);
+  reader.finish();
+  if (!from || !speed) fail_at(node, key, "{from_m: along the route, speed_mps: speed from there on}");
+  return stretch;
+}
+
+void read_closed_loop(ConfigReader& reader, MotionConfig::ClosedLoop& closed_loop) {
+  reader.read("enabled", closed_loop.enabled);
+  double latency_ms = 1e3 * closed_loop.latency_s;
+  reader.read("latency_ms", latency_ms, kLatency_ms);
+  closed_loop.latency_s = 1e-3 * latency_ms;
+}
+
 void read_route(ConfigReader& reader, MotionConfig& config) {
   reader.read("route", config.route);
   reader.read("route_start_m", config.route_start_m, kRouteStart_m);
@@ -105,6 +124,7 @@ void read_list(ConfigReader& reader, const std::string& key, Convert convert, st
 void read_motion(ConfigReader& reader, MotionConfig& config) {
   read_vehicle(reader, config);
   read_route(reader, config);
+  read_list(reader, "route_speeds", stretch_of, config.route_speeds);
   reader.read("tum", config.tum_file);
   read_list(reader, "waypoints", waypoint_of, config.waypoints);
   reader.read("speed_mps", config.speed_mps, kSpeed_mps);
@@ -122,6 +142,7 @@ void read_motion(ConfigReader& reader, MotionConfig& config) {
   reader.read("roughness_m", config.roughness_m, kRoughness_m);
   reader.read("wind_mps", config.wind_mps, kWind_mps);
   read_list(reader, "oscillations", oscillation_of, config.oscillations);
+  reader.section("closed_loop", [&](ConfigReader& loop) { read_closed_loop(loop, config.closed_loop); });
   reader.finish();  // a misspelt key is the better explanation of what is missing
   const bool has_waypoints = config.waypoints.size() >= 2;
   if (config.tum_file.empty() && config.route.empty() && !has_waypoints) {
@@ -130,6 +151,16 @@ void read_motion(ConfigReader& reader, MotionConfig& config) {
   }
   if (!config.route.empty() && (has_waypoints || !config.tum_file.empty())) {
     fail_at(reader.node(), reader.path_of("route"), "either a route, way-points or a trajectory");
+  }
+  if (!config.route_speeds.empty() && config.route.empty()) {
+    fail_at(reader.node(), reader.path_of("route_speeds"), "a route; way-points have their own speeds");
+  }
+  for (std::size_t i = 1; i < config.route_speeds.size(); ++i) {
+    if (config.route_speeds[i].from_m > config.route_speeds[i - 1].from_m) continue;
+    fail_at(reader.node(), reader.path_of("route_speeds"), "stretches in the order of their from_m");
+  }
+  if (config.closed_loop.enabled && config.vehicle != "quadrotor") {
+    fail_at(reader.node(), reader.path_of("closed_loop.enabled"), "vehicle: quadrotor, which alone is controlled");
   }
   if (!config.tum_file.empty() && !config.vehicle.empty()) {
     fail_at(reader.node(), reader.path_of("vehicle"), "no vehicle for a trajectory that is played as it is");

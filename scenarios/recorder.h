@@ -32,6 +32,8 @@ class Recorder {
   /// Ends the run before its time.
   void set_fault(const std::string& fault) { record_.fault = fault; }
 
+  /// All outputs so far.
+  const std::vector<Odometry>& odometry() const { return record_.odometry; }
   bool faulted() const { return !record_.fault.empty(); }
   /// The record, completed by the estimator's counts and map. The recorder is used up.
   RunRecord finish();

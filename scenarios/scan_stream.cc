@@ -5,7 +5,7 @@ namespace plumbline {
 ScanStream::ScanStream(const Scenario& scenario, const Surroundings& surroundings, const Trajectory& world_from_body)
     : scenario_(scenario),
       surroundings_(surroundings),
-      end_ns_(world_from_body.end_ns()),
+      world_from_body_(world_from_body),
       driver_(world_from_body),
       lidar_(scenario.rig.lidar, scenario.rig.pack_from_lidar, scenario.seed, scenario.rig.lidar_effects,
              scenario.rig.lidar_returns),
@@ -13,8 +13,8 @@ ScanStream::ScanStream(const Scenario& scenario, const Surroundings& surrounding
 
 std::unique_ptr<SensorMessage> ScanStream::next() {
   const std::int64_t start_ns = scan_ * lidar_.period_ns();
-  const std::int64_t end_ns = start_ns + lidar_.period_ns();
-  if (end_ns > end_ns_) return nullptr;
+  const std::int64_t end_ns = next_over_ns();
+  if (end_ns > world_from_body_.end_ns()) return nullptr;
   auto message = timed_message([&] { return cast(start_ns, end_ns); }, end_ns);
   ++scan_;
   if (scan_ % parts_ == 0) scan_ += (scenario_.rig.decimation - 1) * parts_;  // whole sweeps are left out

@@ -19,13 +19,15 @@ class ScanStream {
 
   /// The next scan; null after the motion's end.
   std::unique_ptr<SensorMessage> next();
+  /// When the next scan ends: what it needs to know of the motion.
+  std::int64_t next_over_ns() const { return (scan_ + 1) * lidar_.period_ns(); }
 
  private:
   LidarScan cast(std::int64_t start_ns, std::int64_t end_ns);
 
   const Scenario& scenario_;
   const Surroundings surroundings_;
-  const std::int64_t end_ns_;
+  const Trajectory& world_from_body_;
   RigDriver driver_;
   Lidar lidar_;
   const int parts_;        // messages of a sweep

@@ -40,9 +40,8 @@ std::unique_ptr<SensorMessage> copy_of(const SensorMessage& message) {
 
 }  // namespace
 
-SensorLink::SensorLink(MessageSource source, FaultySensor sensor, const Scenario& scenario)
-    : source_(std::move(source)),
-      clock_(timing_of(sensor, scenario.rig).clock, scenario.seed, name_of(sensor)),
+SensorLink::SensorLink(FaultySensor sensor, const Scenario& scenario)
+    : clock_(timing_of(sensor, scenario.rig).clock, scenario.seed, name_of(sensor)),
       transport_(timing_of(sensor, scenario.rig).transport, scenario.seed, name_of(sensor)) {
   for (std::size_t i = 0; i < scenario.faults.size(); ++i) {
     const Fault& fault = scenario.faults[i];
@@ -52,9 +51,9 @@ SensorLink::SensorLink(MessageSource source, FaultySensor sensor, const Scenario
   }
 }
 
-std::unique_ptr<SensorMessage> SensorLink::next() {
+std::unique_ptr<SensorMessage> SensorLink::next(const MessageSource& source) {
   while (arrived_.empty()) {
-    auto message = source_();
+    auto message = source();
     if (message) {
       send(std::move(message));
     } else if (held_back_) {
@@ -64,6 +63,10 @@ std::unique_ptr<SensorMessage> SensorLink::next() {
       return nullptr;
     }
   }
+  return take();
+}
+
+std::unique_ptr<SensorMessage> SensorLink::take() {
   auto message = std::move(arrived_.front());
   arrived_.pop_front();
   return message;

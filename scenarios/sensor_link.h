@@ -22,15 +22,20 @@ using MessageSource = std::function<std::unique_ptr<SensorMessage>()>;
 /// such, so that it can be counted.
 class SensorLink {
  public:
-  SensorLink(MessageSource source, FaultySensor sensor, const Scenario& scenario);
+  SensorLink(FaultySensor sensor, const Scenario& scenario);
 
-  std::unique_ptr<SensorMessage> next();
+  /// The next that arrives of what a source gives; null after its end.
+  std::unique_ptr<SensorMessage> next(const MessageSource& source);
+
+  /// Puts a message on its way; it is sent at its time of delivery.
+  void send(std::unique_ptr<SensorMessage> message);
+  /// The next of those sent that is to arrive, or null while there is none.
+  const SensorMessage* front() const { return arrived_.empty() ? nullptr : arrived_.front().get(); }
+  std::unique_ptr<SensorMessage> take();
 
  private:
-  void send(std::unique_ptr<SensorMessage> message);
   void arrive(std::unique_ptr<SensorMessage> message, std::int64_t sent_ns);
 
-  MessageSource source_;
   std::vector<FaultTrigger> faults_;
   bool keeps_last_ = false;            ///< a fault may ask for the last good message
   std::map<int, SensorPayload> last_;  ///< by camera

@@ -64,7 +64,9 @@ MessageSource scans_of(const Scenario& scenario, const Surroundings& surrounding
 }
 
 MessageSource linked(MessageSource source, FaultySensor sensor, const Scenario& scenario) {
-  return source_of(std::make_shared<SensorLink>(std::move(source), sensor, scenario));
+  return [source = std::move(source), link = std::make_shared<SensorLink>(sensor, scenario)] {
+    return link->next(source);
+  };
 }
 
 /// The costly sensors as they come, the IMU, and everyone's way to the estimator.

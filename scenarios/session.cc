@@ -6,10 +6,13 @@
 #include <optional>
 #include <stdexcept>
 
+#include "scenarios/as_input.h"
 #include "scenarios/calibration.h"
+#include "scenarios/flight_session.h"
 #include "scenarios/map_colouring.h"
 #include "scenarios/recorder.h"
 #include "scenarios/sensor_stream.h"
+#include "scenarios/truth_log.h"
 #include "sim/glare.h"
 #include "sim/rig_driver.h"
 #include "sim/vehicles/vehicle.h"
@@ -17,54 +20,7 @@
 namespace plumbline {
 namespace {
 
-constexpr const char* kInterrupted = "interrupted";
 constexpr double kReportedShare = 0.005;  // progress between two reports
-
-/// Calls something whose complaints about its arguments are complaints about the scenario.
-template <typename Call>
-auto as_input(const Scenario& scenario, Call call) {
-  try {
-    return call();
-  } catch (const std::invalid_argument& error) {
-    throw InputError(scenario.path.string() + ": " + error.what());
-  }
-}
-
-/// The true poses of the IMU, which is the estimator's body, at every time that it measures.
-class TruthLog {
- public:
-  TruthLog(const Scenario& scenario, const Trajectory& world_from_body, const SessionOptions& options,
-           const SessionListener& listener)
-      : world_from_body_(world_from_body),
-        body_from_imu_(Eigen::Quaterniond::Identity(), scenario.rig.imu.position_in_body),
-        period_ns_(std::llround(1e9 / scenario.rig.imu.rate_hz)),
-        count_(world_from_body.end_ns() / period_ns_),
-        options_(options),
-        listener_(listener) {}
-
-  /// Goes on to a time, included. @return false if the run is to end
-  bool up_to(std::int64_t stamp_ns) {
-    const std::int64_t samples_per_report = std::max<std::int64_t>(count_ / 200, 1);
-    while (logged_ < count_ && (logged_ + 1) * period_ns_ <= stamp_ns) {
-      const std::int64_t next_ns = ++logged_ * period_ns_;
-      listener_.truth(next_ns, world_from_body_.pose(next_ns) * body_from_imu_);
-      if (options_.progress && logged_ % samples_per_report == 0 &&
-          !options_.progress(static_cast<double>(logged_) / static_cast<double>(count_))) {
-        return false;
-      }
-    }
-    return true;
-  }
-
- private:
-  const Trajectory& world_from_body_;
-  const Pose body_from_imu_;
-  const std::int64_t period_ns_;
-  const std::int64_t count_;
-  const SessionOptions& options_;
-  const SessionListener& listener_;
-  std::int64_t logged_ = 0;
-};
 
 /// Glare comes last: it is as strong at every level of light.
 void set_conditions(World& world, const WorldConfig& config) {
@@ -81,7 +37,7 @@ void set_conditions(World& world, const WorldConfig& config) {
 
 bool run(const Scenario& scenario, const Trajectory& world_from_body, const MessageSource& source,
          const SessionOptions& options, const SessionListener& listener) {
-  TruthLog truth(scenario, world_from_body, options, listener);
+  TruthLog truth(scenario.rig.imu, world_from_body, world_from_body.end_ns(), options, listener.truth);
   while (const auto message = source()) {
     if (!truth.up_to(message->delivery_ns)) return false;
     if (!listener.message(*message)) return true;
@@ -110,6 +66,11 @@ World make_world(const Scenario& scenario) {
 }
 
 Trajectory make_body_trajectory(const Scenario& scenario, const World& world, const RayScene& rays) {
+  if (scenario.motion.closed_loop.enabled) {
+    throw InputError(scenario.path.string() +
+                     ": motion.closed_loop.enabled: found true, expected false: what an estimator has not flown yet is "
+                     "not known");
+  }
   return as_input(scenario, [&] {
     return mounted_on(make_trajectory(scenario.motion, world, rays, scenario.seed), scenario.rig.vehicle_from_pack);
   });
@@ -135,6 +96,7 @@ RunRecord run_session(const Scenario& scenario, const World& world, const RaySce
 
 RunRecord run_session(const Scenario& scenario, const World& world, const RayScene& rays, const SessionOptions& options,
                       Estimator& estimator) {
+  if (scenario.motion.closed_loop.enabled) return run_flight(scenario, world, rays, options, estimator);
   const Trajectory world_from_body = make_body_trajectory(scenario, world, rays);
   Recorder recorder(estimator, 0, world_from_body.end_ns(), options.on_image);
   const std::unique_ptr<OwnBody> own_body = make_own_body(scenario);

@@ -12,6 +12,9 @@
 
 namespace plumbline {
 
+/// The fault of a run that its user ended.
+inline constexpr const char* kInterrupted = "interrupted";
+
 struct SessionOptions {
   int threads = 2;  ///< 1: everything in turn; 2 and more: sensors ahead of the estimator. The bytes are the same.
   /// Called now and then with the simulated share done, [0, 1]; false ends the run there, its record so far kept and
@@ -24,7 +27,8 @@ struct SessionOptions {
 /// The world of a scenario, light level set. @throws InputError
 World make_world(const Scenario& scenario);
 
-/// The body's exact motion in a scenario, stamps counted from 0. @throws InputError
+/// The body's exact motion in a scenario, stamps counted from 0. @throws InputError, also for a flight in closed loop,
+/// whose motion is not known ahead
 Trajectory make_body_trajectory(const Scenario& scenario, const World& world, const RayScene& rays);
 
 /// The vehicle as its sensors see it; nullptr where there is none, or it is left out.

@@ -62,8 +62,30 @@ std::vector<T> smoothed(std::vector<T> values, double total_width_s) {
 
 double unwrapped(double angle, double near) { return angle + 2.0 * M_PI * std::round((near - angle) / (2.0 * M_PI)); }
 
+double first_heading(const Path& path, const std::vector<double>& along_m, double least_level) {
+  for (const double s : along_m) {
+    const PathPoint point = path.at(s);
+    if (point.tangent.head<2>().norm() >= least_level) return point.heading();
+  }
+  return 0.0;
+}
+
 double acceleration_of(const MotionConfig& config) {
   return config.acceleration_mps2 * config.speed_factor * config.speed_factor;
+}
+
+double route_speed(const MotionConfig& config, double along_m) {
+  double speed_mps = config.speed_mps;
+  for (const MotionConfig::Stretch& stretch : config.route_speeds) {
+    if (along_m >= stretch.from_m) speed_mps = stretch.speed_mps;
+  }
+  return speed_mps;
+}
+
+double top_route_speed(const MotionConfig& config) {
+  double top_mps = config.speed_mps;
+  for (const MotionConfig::Stretch& stretch : config.route_speeds) top_mps = std::max(top_mps, stretch.speed_mps);
+  return top_mps;
 }
 
 /// The straight legs between way-points: where each ends, its speed and its heading.
@@ -150,13 +172,13 @@ Course course_along(const Path& path, const MotionConfig& config, Turning turnin
   validate_or_throw(config);
   const bool by_legs = config.route.empty();
   const Legs legs = by_legs ? legs_of(config) : Legs{};
-  const double speed_mps = config.speed_mps * config.speed_factor;
   // Rounding shortens the legs a little; their speeds change at the same share of the way.
   const double leg_scale = by_legs ? legs.end_m.back() / path.length_m() : 1.0;
   const double lateral_mps2 = config.lateral_acceleration_mps2 * config.speed_factor * config.speed_factor;
   std::size_t leg = 0;
   const auto limit = [&](double along_m) {
-    const double own = by_legs ? legs.mps[leg = legs.at(along_m * leg_scale, leg)] : speed_mps;
+    const double own = by_legs ? legs.mps[leg = legs.at(along_m * leg_scale, leg)]
+                               : route_speed(config, along_m) * config.speed_factor;
     const PathPoint point = path.at(along_m);
     const double bend = turning == Turning::kInAir ? point.curvature.norm() : std::abs(point.turn());
     return std::min(own, std::sqrt(lateral_mps2 / std::max(bend, 1e-9)));
@@ -164,15 +186,18 @@ Course course_along(const Path& path, const MotionConfig& config, Turning turnin
   Course course;
   course.along_m =
       smoothed(with_rests(travel(path.length_m(), limit, acceleration_of(config)), config), config.smoothing_s);
+  // A steep climb's bow to one side is no heading: a craft that rises from its pad already looks where it will go.
+  const double least_level = turning == Turning::kInAir ? 0.3 : 1e-3;
+  double yaw = first_heading(path, course.along_m, least_level);
   for (const double along_m : course.along_m) {
     const PathPoint point = path.at(along_m);
     course.position.push_back(point.position);
-    const double near = course.yaw.empty() ? 0.0 : course.yaw.back();
-    const bool vertical = point.tangent.head<2>().norm() < 1e-3;
-    course.yaw.push_back(vertical ? near : unwrapped(point.heading(), near));
+    if (point.tangent.head<2>().norm() >= least_level) yaw = unwrapped(point.heading(), yaw);
+    course.yaw.push_back(yaw);
   }
   course.yaw = smoothed(std::move(course.yaw), config.smoothing_s);
-  const double top_mps = by_legs ? *std::max_element(legs.mps.begin(), legs.mps.end()) : speed_mps;
+  const double top_mps =
+      by_legs ? *std::max_element(legs.mps.begin(), legs.mps.end()) : top_route_speed(config) * config.speed_factor;
   course.effort = efforts(course.along_m, top_mps);
   return course;
 }

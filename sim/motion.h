@@ -32,13 +32,25 @@ struct MotionConfig {
     double speed_mps = 0.0;                              ///< from here to the next one; 0: `speed_mps` of the motion
   };
 
+  /// Another speed along a route.
+  struct Stretch {
+    double from_m = 0.0;  ///< along the part of the route that is followed
+    double speed_mps = 0.0;
+  };
+  /// A craft that flies on what an estimator says of it in place of the truth.
+  struct ClosedLoop {
+    bool enabled = false;
+    double latency_s = 0.01;  ///< from an IMU sample's arrival to the rotors' reaction to the estimate that it brought
+  };
+
   /// What moves: empty, a spline through the way-points; else a name of vehicle_library().
   std::string vehicle;
   /// A route of the scene to follow in place of way-points: "" for none, "tour" or its name.
   std::string route;
-  double route_start_m = 0.0;   ///< along it
-  double route_length_m = 0.0;  ///< how much of it; 0: to its end, or once round
-  double height_m = 0.0;        ///< of the body above the route, for what is carried or flies; cars know their own
+  double route_start_m = 0.0;         ///< along it
+  double route_length_m = 0.0;        ///< how much of it; 0: to its end, or once round
+  std::vector<Stretch> route_speeds;  ///< in order; before the first, `speed_mps`
+  double height_m = 0.0;  ///< of the body above the route, for what is carried or flies; cars know their own
 
   std::filesystem::path
       tum_file;  ///< played as it is, from its first pose on; of the rest only speed_factor counts then
@@ -63,6 +75,7 @@ struct MotionConfig {
   double roughness_m = 0.0;  ///< of the ground, standard deviation, finer than the scene's own; for wheels
   double wind_mps = 0.0;     ///< mean wind, with gusts, from a side that the seed chooses; for what flies
   std::vector<Oscillation> oscillations;
+  ClosedLoop closed_loop;
 };
 
 /// @throws std::invalid_argument naming the field, or the file and line of a TUM file, that cannot be used.

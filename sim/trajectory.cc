@@ -54,6 +54,30 @@ Trajectory::Trajectory(const std::vector<PoseTrack::Stamped>& poses) {
   second_ = natural_second_derivatives(times_s_, values_);
 }
 
+Trajectory::Trajectory(const Pose& first, std::int64_t start_ns, std::int64_t step_ns)
+    : start_ns_(start_ns - 2 * step_ns), end_ns_(start_ns_ - step_ns), step_ns_(step_ns) {
+  if (step_ns <= 0) throw std::invalid_argument("trajectory: the step must be above 0");
+  const Channels rest = channels_of(first, nullptr);
+  controls_[0] = controls_[1] = rest;
+  for (int knot = 0; knot < 2; ++knot) push_knot(rest, rest, rest);
+}
+
+void Trajectory::extend(const Pose& control) {
+  const Channels next = channels_of(control, &controls_[1]);
+  push_knot(controls_[0], controls_[1], next);
+  controls_[0] = controls_[1];
+  controls_[1] = next;
+}
+
+/// A B-spline's value and second derivative at a knot, from the control poses around it.
+void Trajectory::push_knot(const Channels& before, const Channels& at, const Channels& after) {
+  end_ns_ += step_ns_;
+  const double step_s = static_cast<double>(step_ns_) * 1e-9;
+  times_s_.push_back(static_cast<double>(end_ns_) * 1e-9);
+  values_.push_back((before + 4.0 * at + after) / 6.0);
+  second_.push_back((before - 2.0 * at + after) / (step_s * step_s));
+}
+
 std::int64_t Trajectory::knot_ns() const {
   constexpr std::int64_t kMillisecond_ns = 1'000'000;
   const auto legs = static_cast<std::int64_t>(times_s_.size()) - 1;

@@ -25,6 +25,12 @@ class Trajectory {
   /// @throws std::invalid_argument for fewer than four poses or stamps that do not increase.
   explicit Trajectory(const std::vector<PoseTrack::Stamped>& poses);
 
+  /// A motion that is not known to its end: the uniform cubic B-spline of control poses `step_ns` apart, at rest at
+  /// `first` until `start_ns`, and from then on as it is extended. What is known of it never changes.
+  Trajectory(const Pose& first, std::int64_t start_ns, std::int64_t step_ns);
+  /// The next control pose. The last knot, and with it end_ns(), follows a step behind it. Nobody may read meanwhile.
+  void extend(const Pose& control);
+
   /// A motion that is under way at time 0 starts before it.
   std::int64_t start_ns() const { return start_ns_; }
   std::int64_t end_ns() const { return end_ns_; }
@@ -38,8 +44,12 @@ class Trajectory {
 
  private:
   using Channels = Eigen::Matrix<double, 7, 1>;
+  void push_knot(const Channels& before, const Channels& at, const Channels& after);
+
   std::int64_t start_ns_ = 0;
   std::int64_t end_ns_ = 0;
+  std::int64_t step_ns_ = 0;  // between the control poses of a motion that grows
+  Channels controls_[2];      // its last two, the newest last
   std::vector<double> times_s_;
   std::vector<Channels> values_;  // x y z, qx qy qz qw
   std::vector<Channels> second_;  // second derivatives at the knots

@@ -163,41 +163,43 @@ void Vloam::handle(const LidarScan& scan) {
     return gate_.drop(Module::kLidar, "before the start");
   gate_.count_used(Module::kLidar);
   const StopWatch watch;
-  const auto points_in_body = deskew(scan, track_, calibration_.body_from_lidar, scan.end_ns);
+  // What is matched corrects the state as it is now, so that a scan that came late is brought here by the motion since.
+  const std::int64_t now_ns = filter_->state().stamp_ns;
+  const auto points_in_body = deskew(scan, track_, calibration_.body_from_lidar, now_ns);
   if (config_.lidar_enabled) {
     const std::optional<LidarScan> sweep = sweeps_.add(scan);
     const bool in_parts = sweep && sweep->points.size() != scan.points.size();
     if (in_parts && track_.covers(sweep->stamp_ns)) {
-      refine_with_scan(*sweep, deskew(*sweep, track_, calibration_.body_from_lidar, sweep->end_ns));
+      refine_with_scan(*sweep, deskew(*sweep, track_, calibration_.body_from_lidar, now_ns));
     } else if (sweep && !in_parts) {
       refine_with_scan(scan, points_in_body);
     }
   }
 
-  const Pose world_from_body = track_.at(scan.end_ns);
+  const Pose world_from_body = track_.at(now_ns);
   if (config_.vision_enabled) vision_.add_depth_points(scan.end_ns, points_in_body, world_from_body);
   if (!health_.empty() && health_.back().module == Module::kLidar) health_.back().processing_s = watch.seconds();
 }
 
 /// Matches a scan to the map; in the joint problem, with the rows of the newest image, whose body stood a little before
-/// the scan's end.
-SolveResult Vloam::match(const FeatureCloud& features, std::int64_t end_ns, const Pose& map_from_body) {
+/// the present one.
+SolveResult Vloam::match(const FeatureCloud& features, const Pose& map_from_body) {
   const PosePrior prior{map_from_body, filter_->map_from_body_covariance()};
   const auto image_ns = std::exchange(followed_ns_, std::nullopt);
   if (!image_ns || !track_.covers(*image_ns)) return matcher_.match(features, prior);
-  const Pose world_from_end = track_.at(end_ns);
-  const Pose end_from_image = world_from_end.inverse() * track_.at(*image_ns);
-  const Matrix6d d_image_d_end = adjoint(end_from_image.inverse());
-  const Pose keyframe_from_map = filter_->world_from_keyframe().inverse() * world_from_end * map_from_body.inverse();
+  const Pose world_from_body = track_.at(filter_->state().stamp_ns);
+  const Pose body_from_image = world_from_body.inverse() * track_.at(*image_ns);
+  const Matrix6d d_image_d_body = adjoint(body_from_image.inverse());
+  const Pose keyframe_from_map = filter_->world_from_keyframe().inverse() * world_from_body * map_from_body.inverse();
   int image_features = 0;
   SolveResult solved = matcher_.match(features, prior, [&](const Pose& pose, ResidualRows& rows) {
     ResidualRows of_image;
-    vision_.linearize(keyframe_from_map * pose * end_from_image, of_image);
+    vision_.linearize(keyframe_from_map * pose * body_from_image, of_image);
     image_features = of_image.feature_count();
-    rows.append(of_image, d_image_d_end);
+    rows.append(of_image, d_image_d_body);
   });
   if (solved.spectrum.well_conditioned > 0) {
-    vision_.settle(keyframe_from_map * solved.pose * end_from_image,
+    vision_.settle(keyframe_from_map * solved.pose * body_from_image,
                    {solved.weights.end() - image_features, solved.weights.end()});
   }
   return solved;
@@ -207,10 +209,10 @@ void Vloam::refine_with_scan(const LidarScan& scan, const std::vector<Eigen::Vec
   const FeatureCloud features = extract_features(scan, points_in_body, calibration_);
   const Pose predicted = filter_->map_from_body();
   const std::optional<std::int64_t> image_ns = followed_ns_;
-  const SolveResult solved = match(features, scan.end_ns, predicted);
+  const SolveResult solved = match(features, predicted);
   correct([&] { filter_->update_pose(solved, predicted, kLidarInflation); });
   if (image_ns) start_keyframe_when_due(*image_ns);
-  const Pose world_from_body = track_.at(scan.end_ns);
+  const Pose world_from_body = track_.at(filter_->state().stamp_ns);
   const Eigen::Vector3d step_in_world = world_from_body.translation - last_scan_position_;
   path_m_ += step_in_world.norm();
   last_scan_position_ = world_from_body.translation;

@@ -51,7 +51,7 @@ class Vloam final : public Estimator {
   void handle(const LidarScan& scan);
   template <typename Frame>
   void see(const Frame& frame);
-  SolveResult match(const FeatureCloud& features, std::int64_t end_ns, const Pose& map_from_body);
+  SolveResult match(const FeatureCloud& features, const Pose& map_from_body);
   void start_keyframe_when_due(std::int64_t image_ns);
   void refine_with_scan(const LidarScan& scan, const std::vector<Eigen::Vector3f>& points_in_body);
   void renew_map(const Eigen::Vector3d& step_in_body);

@@ -6,34 +6,13 @@
 #include "sim/scenes/palette.h"
 #include "sim/vehicles/flying.h"
 #include "sim/vehicles/rotor_craft.h"
+#include "sim/vehicles/wind.h"
 
 namespace plumbline {
 namespace {
 
 constexpr double kStep_s = RotorCraft::kStep_s;
 static_assert(RotorCraft::kStep_s == BandLimiter::kStep_s);
-
-/// A mean wind with gusts of a fifth of it (a first-order Markov process, as MIL-F-8785C's Dryden model is along it).
-class Wind {
- public:
-  Wind(double mean_mps, std::uint64_t seed) : stream_(seed, "wind"), mean_mps_(mean_mps) {
-    const double from = stream_.uniform(0.0, 2.0 * M_PI);
-    mean_ = mean_mps * Eigen::Vector3d(std::cos(from), std::sin(from), 0.0);
-  }
-  Eigen::Vector3d next() {
-    constexpr double kCorrelation_s = 1.5;
-    constexpr double kGusts = 0.2;
-    const double drive = kGusts * mean_mps_ * std::sqrt(2.0 * kStep_s / kCorrelation_s);
-    for (double& gust : gust_) gust += -gust * kStep_s / kCorrelation_s + drive * stream_.gaussian();
-    return mean_ + gust_;
-  }
-
- private:
-  RandomStream stream_;
-  double mean_mps_;
-  Eigen::Vector3d mean_;
-  Eigen::Vector3d gust_ = Eigen::Vector3d::Zero();
-};
 
 Trajectory fly(const MotionConfig& config, const World& world, const RayScene& /*rays*/, std::uint64_t seed) {
   constexpr double kOff_m = 2.0;

@@ -99,15 +99,12 @@ void RotorCraft::step(const Wrench& wanted, const Eigen::Vector3d& wind) {
   mj_step(model_.get(), data_.get());
 }
 
-Wrench track(const RotorCraftDesign& design, const FlightState& now, const FlightState& wanted) {
-  constexpr double kPlace = 30.0;      // [1/s^2]
-  constexpr double kVelocity = 10.0;   // [1/s]
-  constexpr double kAttitude = 900.0;  // [1/s^2]
-  constexpr double kRate = 50.0;       // [1/s]
-  const Eigen::Vector3d push =
-      design.mass_kg * (wanted.acceleration + kGravity * Eigen::Vector3d::UnitZ() +
-                        kPlace * (wanted.position - now.position) + kVelocity * (wanted.velocity - now.velocity)) +
-      design.drag * wanted.velocity;
+Wrench track(const RotorCraftDesign& design, const FlightState& now, const FlightState& wanted,
+             const TrackingGains& gains) {
+  const Eigen::Vector3d push = design.mass_kg * (wanted.acceleration + kGravity * Eigen::Vector3d::UnitZ() +
+                                                 gains.place * (wanted.position - now.position) +
+                                                 gains.velocity * (wanted.velocity - now.velocity)) +
+                               design.drag * wanted.velocity;
   // The commanded attitude: the thrust's direction, and the reference's forward as near as that leaves it.
   const Eigen::Vector3d z = push.normalized();
   const Eigen::Vector3d y = z.cross(Eigen::Vector3d(wanted.attitude * Eigen::Vector3d::UnitX())).normalized();
@@ -120,7 +117,7 @@ Wrench track(const RotorCraftDesign& design, const FlightState& now, const Fligh
   const Eigen::Vector3d attitude_error = 0.5 * Eigen::Vector3d(off(2, 1), off(0, 2), off(1, 0));
   const Eigen::Vector3d rate = craft_from_commanded * wanted.rate;
   const Eigen::Vector3d rate_error = now.rate - rate;
-  const Eigen::Vector3d turning = -kAttitude * attitude_error - kRate * rate_error +
+  const Eigen::Vector3d turning = -gains.attitude * attitude_error - gains.rate * rate_error +
                                   craft_from_commanded * wanted.rate_change - now.rate.cross(rate);
   const Eigen::Vector3d momentum = design.inertia.cwiseProduct(now.rate);
   return {push.dot(world_from_craft.col(2)), design.inertia.cwiseProduct(turning) + now.rate.cross(momentum)};

@@ -29,6 +29,14 @@ struct Wrench {
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< in the craft's axes [N m]
 };
 
+/// Of the controller. By themselves for a state known at once and exactly.
+struct TrackingGains {
+  double place = 30.0;      ///< [1/s^2]
+  double velocity = 10.0;   ///< [1/s]
+  double attitude = 900.0;  ///< [1/s^2]
+  double rate = 50.0;       ///< [1/s]
+};
+
 /// A craft as it flies: a free body in MuJoCo, pushed by its rotors and the wind.
 class RotorCraft {
  public:
@@ -53,6 +61,7 @@ class RotorCraft {
 
 /// Geometric tracking control on SE(3) (Lee, Leok, McClamroch, CDC 2010), with the reference's own derivatives fed
 /// forward.
-Wrench track(const RotorCraftDesign& design, const FlightState& now, const FlightState& wanted);
+Wrench track(const RotorCraftDesign& design, const FlightState& now, const FlightState& wanted,
+             const TrackingGains& gains = {});
 
 }  // namespace plumbline

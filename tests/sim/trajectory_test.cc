@@ -138,5 +138,39 @@ TEST(Motion, SaysWhatIsWrong) {
   EXPECT_THROW(make_trajectory(config, 1), std::invalid_argument);
 }
 
+/// Control poses of an aggressive motion, 2 ms apart.
+Pose control_at(std::int64_t stamp_ns) {
+  static const Trajectory motion = make_trajectory(testing::aggressive_motion(), 1);
+  return motion.pose(stamp_ns + 3'000'000'000);
+}
+
+TEST(GrowingTrajectory, FollowsItsControlPosesAndWhatIsKnownStays) {
+  constexpr std::int64_t kStep_ns = 2'000'000;
+  Trajectory growing(control_at(0), 0, kStep_ns);
+  std::vector<MotionState> seen;
+  std::vector<std::int64_t> stamps;
+  for (std::int64_t t = kStep_ns; t <= 1'000'000'000; t += kStep_ns) {
+    growing.extend(control_at(t));
+    EXPECT_EQ(growing.end_ns(), t - kStep_ns);
+    if (t < 100'000'000) continue;
+    stamps.push_back(t - 2 * kStep_ns + 700'000);
+    seen.push_back(growing.at(stamps.back()));
+  }
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const MotionState now = growing.at(stamps[i]);
+    ASSERT_EQ(now.world_from_body.translation, seen[i].world_from_body.translation);
+    ASSERT_EQ(now.acceleration_in_world, seen[i].acceleration_in_world);
+    // The spline's knots average their neighbours: off by a step^2 / 6 of the acceleration, 20 um at 3 g.
+    EXPECT_LT((now.world_from_body.translation - control_at(stamps[i]).translation).norm(), 5e-5);
+  }
+}
+
+TEST(GrowingTrajectory, RestsUntilItBegins) {
+  const Trajectory growing(control_at(0), 0, 2'000'000);
+  EXPECT_LT((growing.pose(0).translation - control_at(0).translation).norm(), 1e-12);
+  EXPECT_EQ(growing.at(-1'000'000'000).velocity_in_world.norm(), 0.0);
+  EXPECT_THROW(Trajectory(Pose{}, 0, 0), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace plumbline

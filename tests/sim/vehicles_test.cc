@@ -79,6 +79,19 @@ ImuSample differentiated(const Trajectory& truth, double from_s, double to_s) {
   return sum;
 }
 
+// Around the corner from a rise to a level flight a smooth path bows out backwards, which turned the craft's nose
+// round.
+TEST(Quadrotor, LooksAheadWhileItRisesFromItsPad) {
+  MotionConfig config = vehicle_named("quadrotor").defaults;
+  config.waypoints = {{{0.0, 0.0, 1.2}, 0.0}, {{0.0, 0.0, 2.0}, 0.0}, {{4.0, 0.0, 2.0}, 0.0}, {{8.0, 0.0, 2.0}, 0.0}};
+  const Trajectory asked = quadrotor_reference(config, vehicle_world());
+  for (double t = 0.0; t < duration_s(asked); t += kStep_s) {
+    const Eigen::Vector3d nose = asked.at_seconds(t).world_from_body.rotation * Eigen::Vector3d::UnitX();
+    EXPECT_GT(nose.x(), 0.8) << t;  // it dips by the tilt of its acceleration, 3 m/s^2 in 1 g
+    EXPECT_LT(std::abs(nose.y()), 1e-6) << t;
+  }
+}
+
 TEST(Quadrotor, NoiseFreeImuIsTheTruthsDerivative) {
   const World world = vehicle_world();
   const Trajectory truth = mounted_on(drive(aggressive_flight(), world), {});

@@ -56,6 +56,25 @@ TEST(Report, ShowsEverySectionOfARun) {
   if (const char* path = std::getenv("PLUMBLINE_REPORT_TO")) std::ofstream(path) << page;
 }
 
+TEST(Report, SaysHowAFlightInClosedLoopWent) {
+  RunRecord record = testing::synthetic_record();
+  EXPECT_FALSE(contains(page_of(record, a_scenario()), "Flight in closed loop"));
+  record.flight.emplace();
+  record.flight->waypoints = {{0.0, 0.0, 2.0}, {9.0, 0.0, 2.0}};
+  record.flight->end = FlightEnd::kStruck;
+  for (int i = 0; i < 100; ++i) {
+    FlightSample sample;
+    sample.stamp_ns = i * 10'000'000;
+    sample.flown = {0.01 * i, 0.0, 2.0};
+    sample.wanted = sample.flown;
+    sample.estimate_error = {0.0, 0.01 * i, 0.0};
+    record.flight->samples.push_back(sample);
+  }
+  const std::string page = page_of(record, a_scenario());
+  EXPECT_TRUE(contains(page, "Flight in closed loop"));
+  EXPECT_TRUE(contains(page, "Flight struck; which error left its bound of 0.500 m first: estimate."));
+}
+
 TEST(Report, NeedsNothingFromOutside) {
   const std::string page = page_of(testing::synthetic_record(), a_scenario());
   for (const char* outside : {"http:", "https:", "src=", "@import", "url(", "<script", "<link"}) {

@@ -61,6 +61,18 @@ void append_localization(std::vector<Figure>& list, const LocalizationFigures& l
   list.push_back({prefix + "ms_per_s", finite(localization.ms_per_s)});
 }
 
+void append_flight(std::vector<Figure>& list, const FlightFigures& flight) {
+  list.push_back({"waypoints", static_cast<double>(flight.waypoints), true});
+  list.push_back({"waypoints_missed", static_cast<double>(flight.waypoints_missed), true});
+  list.push_back({"collisions", static_cast<double>(flight.collisions), true});
+  list.push_back({"clearance_min_m", finite(flight.clearance_min_m)});
+  list.push_back({"tracking_error_rms_m", finite(flight.tracking_error_rms_m)});
+  list.push_back({"tracking_error_max_m", finite(flight.tracking_error_max_m)});
+  list.push_back({"estimate_error_max_m", finite(flight.estimate_error_max_m)});
+  list.push_back({"control_error_max_m", finite(flight.control_error_max_m)});
+  list.push_back({"failure_since_s", finite(flight.failure_since_s)});
+}
+
 std::optional<double> translation_of(const std::optional<RootMeanSquare>& error) {
   return error ? std::optional(error->translation_m) : std::nullopt;
 }
@@ -128,6 +140,7 @@ RunFigures run_figures(const RunRecord& record,
   figures.localization = localization_figures(record);
   figures.trajectory = trajectory_figures(record.ground_truth, record.estimate, std::nullopt,
                                           figures.localization ? figures.localization->settled_ns : std::nullopt);
+  figures.flight = flight_figures(record);
   figures.simulated_s = figures.trajectory.has_truth ? figures.trajectory.duration_s : duration_s(record.estimate);
   figures.map = map_error(record.map, figures.trajectory.drift_alignment.truth_from_estimate, distance_to_surface);
   figures.map_points = record.map.size();
@@ -172,6 +185,7 @@ std::vector<Figure> figure_list(const RunFigures& figures) {
   list.push_back({"real_time_factor", finite(figures.real_time_factor)});
   list.push_back({"estimator_real_time_factor", finite(figures.estimator_real_time_factor)});
   list.push_back({"wall_s", finite(figures.wall_s)});
+  if (figures.flight) append_flight(list, *figures.flight);
   if (figures.localization) append_localization(list, *figures.localization);
   for (const Module module : kModules) {
     const auto found = figures.modules.find(module);

@@ -8,6 +8,7 @@
 
 #include "scenarios/run_record.h"
 #include "tools/evaluation/alignment.h"
+#include "tools/evaluation/flight_figures.h"
 #include "tools/evaluation/kitti.h"
 #include "tools/evaluation/localization_figures.h"
 #include "tools/evaluation/map_error.h"
@@ -56,6 +57,7 @@ struct RunFigures {
   std::optional<double> real_time_factor;           ///< filled in last, when the outputs are written
   std::optional<double> wall_s;                     ///< likewise
   std::optional<LocalizationFigures> localization;  ///< with a prior map
+  std::optional<FlightFigures> flight;              ///< in closed loop
   std::map<Module, ModuleFigures> modules;
   std::map<Module, MessageTally> messages;
 };

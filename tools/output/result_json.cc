@@ -83,6 +83,10 @@ std::string result_json(const RunFigures& figures, const Verdict& verdict, const
   result["kitti_scaled"] = figures.trajectory.kitti.scaled;
   result["rpe_by_second_m"] = numbers(figures.trajectory.rpe_by_second_m);
   set_nested(result, figures);
+  if (figures.flight) {
+    result["flight_end"] = to_string(figures.flight->end);
+    result["failure_origin"] = to_string(figures.flight->origin);
+  }
   if (figures.localization) {
     result["localization"]["map"] = record.prior_map;
     result["localization"]["localized_at_end"] = figures.localization->at_end;

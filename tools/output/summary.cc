@@ -37,6 +37,18 @@ std::string localization_row(const LocalizationFigures& figures) {
   return row("localized", text + " " + with_unit(figures.mean_ms, " ms each"));
 }
 
+std::string flight_row(const FlightFigures& figures) {
+  std::string text =
+      to_string(figures.end) + ", " + std::to_string(figures.waypoints - figures.waypoints_missed) + " of " +
+      std::to_string(figures.waypoints) + " way-points, clearance " + with_unit(figures.clearance_min_m, " m") +
+      "; worst errors: tracking " + with_unit(figures.tracking_error_max_m, " m, estimate ") +
+      with_unit(figures.estimate_error_max_m, " m, control ") + with_unit(figures.control_error_max_m, " m");
+  if (figures.origin != FailureOrigin::kNone) {
+    text += "; the failure began in " + to_string(figures.origin) + ", " + with_unit(figures.failure_since_s, " s");
+  }
+  return row("flight", text);
+}
+
 std::string problems(const RunRecord& record, const RunFigures& figures, const Verdict& verdict) {
   std::string text;
   if (!record.fault.empty()) text += row("fault", record.fault);
@@ -73,6 +85,7 @@ std::string run_summary(const RunRecord& record, const RunFigures& figures, cons
   text += row("map", with_unit(figures.map.rmse_m, " m rms") + ", p95 " + with_unit(figures.map.p95_m, " m") + ", " +
                          std::to_string(figures.map_points) + " points");
   for (const auto& [module, module_figures] : figures.modules) text += module_row(module, module_figures);
+  if (figures.flight) text += flight_row(*figures.flight);
   if (figures.localization) text += localization_row(*figures.localization);
   text += row("speed", with_unit(figures.real_time_factor, " × real time") + ", the estimator alone " +
                            with_unit(figures.estimator_real_time_factor, " ×"));

@@ -176,6 +176,33 @@ std::string localization_charts(const RunRecord& record) {
   return line_chart(shares) + line_chart(corrections);
 }
 
+std::string flight_charts(const RunRecord& record) {
+  ChartSeries tracking{"tracking", "truth", {}, {}};
+  ChartSeries estimate{"estimate", "estimate", {}, {}};
+  ChartSeries control{"control", "c0", {}, {}};
+  ChartSeries near{"", "c0", {}, {}};
+  std::vector<double> times;
+  for (const FlightSample& sample : record.flight->samples) {
+    times.push_back(seconds_between(start_of(record), sample.stamp_ns));
+    tracking.y.push_back(tracking_error_m(sample));
+    estimate.y.push_back(sample.estimate_error.norm());
+    control.y.push_back(control_error_m(sample));
+    near.y.push_back(sample.clearance_m);
+  }
+  tracking.x = estimate.x = control.x = near.x = times;
+  LineChart errors;
+  errors.caption = "Errors of position";
+  errors.unit = "m";
+  errors.x = time_range(record);
+  errors.series = {tracking, estimate, control};
+  LineChart clearance;
+  clearance.caption = "Clearance";
+  clearance.unit = "m";
+  clearance.x = time_range(record);
+  clearance.series = {near};
+  return line_chart(errors) + line_chart(clearance);
+}
+
 std::string correction_charts(const RunRecord& record) {
   const std::vector<ModuleHealth> lidar = solves_of(record, Module::kLidar);
   const std::vector<ModuleHealth> camera = solves_of(record, Module::kVision);

@@ -14,10 +14,13 @@ std::int64_t start_of(const RunRecord& record);
 /// Position error along the true body's axes, and attitude error about them, over time.
 std::string error_charts(const RunRecord& record, const TrajectoryFigures& figures);
 
-/// The eigenvalues of one module's data, degenerate directions marked; empty for a module without solves.
 /// How well each stack lay on the prior map, and how far it moved the estimate.
 std::string localization_charts(const RunRecord& record);
 
+/// The errors of a flight in closed loop, and how near things were.
+std::string flight_charts(const RunRecord& record);
+
+/// The eigenvalues of one module's data, degenerate directions marked; empty for a module without solves.
 std::string eigenvalue_chart(const RunRecord& record, Module module, const std::string& caption);
 
 /// What scan matching changed of its prediction on six axes, with the modules' status beneath.

@@ -112,6 +112,27 @@ std::string localization_section(const RunReport& report) {
          localization_charts(report.record) + wide_table(head_row({"match"}, {"count"}) + rows) + "</div>";
 }
 
+std::string flight_section(const RunReport& report) {
+  if (!report.figures.flight) return {};
+  const FlightFigures& figures = *report.figures.flight;
+  const std::string outcome = figures.origin == FailureOrigin::kNone
+                                  ? "Flown as asked."
+                                  : "Flight " + to_string(figures.end) + "; which error left its bound of " +
+                                        readable_text(kWaypointReach_m) + " m first: " + to_string(figures.origin) +
+                                        ".";
+  return heading("Flight in closed loop",
+                 "The craft flew on the estimate. Tracking: from the mission; estimate: of what the controller was "
+                 "told; control: what is left of tracking without the estimate's. " +
+                     outcome) +
+         "<div class=\"tiles\">" +
+         figure_tile("Way-points missed", static_cast<double>(figures.waypoints_missed),
+                     " of " + std::to_string(figures.waypoints)) +
+         figure_tile("Collisions", static_cast<double>(figures.collisions), "") +
+         figure_tile("Least clearance", figures.clearance_min_m, "m") +
+         figure_tile("Tracking error, worst", figures.tracking_error_max_m, "m") + "</div><div class=\"pair\">" +
+         flight_charts(report.record) + "</div>";
+}
+
 std::string camera_section(const RunRecord& record) {
   std::string pictures;
   for (const FrameSnapshot& snapshot : record.snapshots) {
@@ -171,7 +192,7 @@ std::string report_html(const RunReport& report) {
   const RunRecord& record = report.record;
   return page_html(
       report.scenario.name,
-      title_block(report) + tiles(report.figures) + checks(report) + map_section(report) +
+      title_block(report) + tiles(report.figures) + checks(report) + flight_section(report) + map_section(report) +
           heading("Error over time", "In the true body's axes: forward, left, up.") + "<div class=\"pair\">" +
           error_charts(record, report.figures.trajectory) + "</div>" + degeneracy_section(record) +
           localization_section(report) +
