@@ -7,6 +7,7 @@
 
 #include "estimator/geometry/interpolation.h"
 #include "estimator/geometry/so3.h"
+#include "estimator/imu/squared.h"
 
 namespace plumbline {
 namespace {
@@ -19,8 +20,6 @@ constexpr double kDensityMargin = 1.5;
 constexpr double kShapeError = 2e-3;    // of the reading
 constexpr double kPushedRate = 1.7e-4;  // [rad/s per m/s^2]
 constexpr double kSwing_s = 0.2;
-
-double squared(double x) { return x * x; }
 
 /// Forced 6-DOF knows no conditioning: its solution replaces the prediction along every direction (thesis 5.7 with all
 /// coefficients one). Directions below the middle of the spectrum are taken as sure as the middle.

@@ -10,7 +10,6 @@
 namespace plumbline {
 namespace {
 
-constexpr double kStep_s = RotorCraft::kStep_s;
 static_assert(RotorCraft::kStep_s == BandLimiter::kStep_s);
 
 /// A mean wind with gusts of a fifth of it (a first-order Markov process, as MIL-F-8785C's Dryden model is along it).
@@ -23,8 +22,8 @@ class Wind {
   Eigen::Vector3d next() {
     constexpr double kCorrelation_s = 1.5;
     constexpr double kGusts = 0.2;
-    const double drive = kGusts * mean_mps_ * std::sqrt(2.0 * kStep_s / kCorrelation_s);
-    for (double& gust : gust_) gust += -gust * kStep_s / kCorrelation_s + drive * stream_.gaussian();
+    const double drive = kGusts * mean_mps_ * std::sqrt(2.0 * RotorCraft::kStep_s / kCorrelation_s);
+    for (double& gust : gust_) gust += -gust * RotorCraft::kStep_s / kCorrelation_s + drive * stream_.gaussian();
     return mean_ + gust_;
   }
 
@@ -45,10 +44,10 @@ Trajectory fly(const MotionConfig& config, const World& world, const RayScene& /
   Wind wind(config.wind_mps, seed);
   BandLimiter motion(-BandLimiter::kLead_ns);
   constexpr std::int64_t kLead = BandLimiter::kLead_ns / BandLimiter::kStep_ns;
-  const auto hover = static_cast<std::int64_t>(kHover_s / kStep_s);
-  const auto steps = static_cast<std::int64_t>(reference.duration_s() / kStep_s) + hover;
+  const auto hover = static_cast<std::int64_t>(kHover_s / RotorCraft::kStep_s);
+  const auto steps = static_cast<std::int64_t>(reference.duration_s() / RotorCraft::kStep_s) + hover;
   for (std::int64_t i = -hover; i <= steps; ++i) {
-    const double time_s = static_cast<double>(i) * kStep_s;
+    const double time_s = static_cast<double>(i) * RotorCraft::kStep_s;
     const FlightState now = craft.state();
     const FlightState wanted = reference.at(time_s);
     if ((now.position - wanted.position).norm() > kOff_m) {
