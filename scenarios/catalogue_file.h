@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scenarios/config_reader.h"
+#include "sim/constants.h"
 
 /// Reading one file of sensors/catalogue.
 namespace plumbline {
@@ -13,7 +14,6 @@ namespace plumbline {
 inline constexpr double kMicro = 1e-6;
 inline constexpr double kMilli = 1e-3;
 inline constexpr double kPercent = 1e-2;
-inline constexpr double kDegree = 3.14159265358979323846 / 180.0;
 inline constexpr double kDegreePerHour = kDegree / 3600.0;
 inline constexpr double kStandardG = 9.80665;  ///< [m/s^2]
 

@@ -18,6 +18,8 @@ struct Range {
   double max = 0.0;
 };
 
+inline constexpr Range kRunTime_s{0.0, 100'000.0};  ///< of a run
+
 /// Throws an InputError: "WHERE: KEY: found FOUND, expected EXPECTED".
 [[noreturn]] void fail_at(const ConfigNode& node, const std::string& key, const std::string& expected);
 

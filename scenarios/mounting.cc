@@ -2,12 +2,13 @@
 
 #include <cmath>
 
+#include "sim/constants.h"
+
 namespace plumbline {
 
 Pose read_mounting(ConfigReader& reader, Eigen::Vector3d position) {
   constexpr Range kOffset_m{-10.0, 10.0};
   constexpr Range kAngle_deg{-180.0, 180.0};
-  constexpr double kDegree = M_PI / 180.0;
   Eigen::Vector3d rpy_deg = Eigen::Vector3d::Zero();
   reader.read("x_m", position.x(), kOffset_m);
   reader.read("y_m", position.y(), kOffset_m);

@@ -11,7 +11,7 @@
 namespace plumbline {
 namespace {
 
-constexpr Range kRate_hz{0.1, 200.0};
+constexpr Range kCameraRate_hz{0.1, 200.0};
 constexpr Range kPixels{32.0, 4096.0};
 constexpr Range kFieldOfView_deg{5.0, 160.0};
 constexpr Range kBaseline_m{0.001, 5.0};
@@ -54,7 +54,7 @@ Pose read_camera_mounting(ConfigReader& reader) {
 
 template <typename Model>
 void read_geometry(ConfigReader& reader, Model& model) {
-  reader.read("rate_hz", model.rate_hz, kRate_hz);
+  reader.read("rate_hz", model.rate_hz, kCameraRate_hz);
   reader.read("width", model.width, kPixels);
   reader.read("height", model.height, kPixels);
   reader.read("horizontal_fov_deg", model.horizontal_fov_deg, kFieldOfView_deg);

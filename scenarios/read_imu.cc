@@ -9,7 +9,7 @@
 namespace plumbline {
 namespace {
 
-constexpr Range kRate_hz{50.0, 1000.0};
+constexpr Range kImuRate_hz{50.0, 1000.0};
 constexpr Range kOffset_m{-10.0, 10.0};
 
 void read_vector(ConfigReader& reader, const std::string& key, double unit, Range range,
@@ -45,7 +45,7 @@ void read_effects(ConfigReader& reader, ImuEffects& effects) {
 void read_imu(ConfigReader& reader, RigConfig& config) {
   ImuModel& imu = config.imu;
   read_model(reader, "imu", catalogue_imu, imu);
-  reader.read("rate_hz", imu.rate_hz, kRate_hz);
+  reader.read("rate_hz", imu.rate_hz, kImuRate_hz);
   read_imu_figures(reader, imu);
   reader.read("x_m", imu.position_in_body.x(), kOffset_m);
   reader.read("y_m", imu.position_in_body.y(), kOffset_m);

@@ -5,7 +5,7 @@
 namespace plumbline {
 namespace {
 
-constexpr Range kRate_hz{1.0, 50.0};
+constexpr Range kLidarRate_hz{1.0, 50.0};
 
 /// In the order of LidarReturns.
 const std::vector<std::string> kReturns = {"strongest", "last", "dual"};
@@ -25,7 +25,7 @@ void read_effects(ConfigReader& reader, LidarEffects& effects) {
 void read_lidar_device(ConfigReader& reader, RigConfig& config) {
   reader.read("enabled", config.has_lidar);
   read_model(reader, "lidar", catalogue_lidar, config.lidar);
-  reader.read("rate_hz", config.lidar.rate_hz, kRate_hz);
+  reader.read("rate_hz", config.lidar.rate_hz, kLidarRate_hz);
   std::size_t returns = 0;
   if (reader.read_choice("returns", kReturns, returns)) config.lidar_returns = static_cast<LidarReturns>(returns);
   bool noise = true;

@@ -5,7 +5,6 @@
 namespace plumbline {
 namespace {
 
-constexpr Range kTime_s{0.0, 100'000.0};
 constexpr Range kShare{0.0, 1.0};
 constexpr double kDefaultPartialShare = 0.5;
 
@@ -25,8 +24,8 @@ Fault fault_of(const ConfigNode& node, const std::string& key) {
   fault.sensor = static_cast<FaultySensor>(sensor);
   fault.kind = static_cast<FaultKind>(kind);
   if (fault.kind == FaultKind::kPartial) fault.share = kDefaultPartialShare;
-  const bool has_start = reader.read("start_s", fault.start_s, kTime_s);
-  const bool has_end = reader.read("end_s", fault.end_s, kTime_s);
+  const bool has_start = reader.read("start_s", fault.start_s, kRunTime_s);
+  const bool has_end = reader.read("end_s", fault.end_s, kRunTime_s);
   reader.read("probability", fault.probability, kShare);
   reader.read("share", fault.share, kShare);
   reader.finish();

@@ -8,7 +8,6 @@ namespace {
 
 constexpr Range kLux{0.0, 100'000.0};
 constexpr Range kLightFactor{0.0, 1000.0};
-constexpr Range kTime_s{0.0, 100'000.0};
 constexpr Range kSunLux{0.0, 200'000.0};
 constexpr Range kRigLamp_cd{0.0, 1'000'000.0};
 constexpr Range kPatches{0, 100};
@@ -21,7 +20,7 @@ std::vector<LightStep> read_schedule(const ConfigNode& node, const std::string& 
   for (const auto& item : list_of(node, key)) {
     LightStep step;
     ConfigReader reader(item, key);
-    const bool has_start = reader.read("start_s", step.start_s, kTime_s);
+    const bool has_start = reader.read("start_s", step.start_s, kRunTime_s);
     const bool has_factor = reader.read("factor", step.factor, kLightFactor);
     reader.finish();
     if (!has_start || !has_factor) fail_at(item, key, "both start_s and factor in every entry");

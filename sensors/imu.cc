@@ -4,12 +4,11 @@
 #include <cmath>
 #include <string>
 
+#include "sim/constants.h"
 #include "sim/random_stream.h"
 
 namespace plumbline {
 namespace {
-
-constexpr double kGravity = 9.81;
 
 ImuModel validated(ImuModel model) {
   validate_or_throw(model);

@@ -13,7 +13,6 @@ namespace {
 
 using Source = FiringNoise::Source;
 
-constexpr double kSpeedOfLight_mps = 299792458.0;
 // Beyond this strength a loss is less likely than one in ten million.
 constexpr double kCertain = 2.1;
 

@@ -11,7 +11,6 @@ using Source = FiringNoise::Source;
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kKoschmieder = 3.912;
-constexpr double kSpeedOfLight_mps = 299792458.0;
 constexpr double kDropletLidarRatio_sr = 18.8;
 constexpr double kDustLidarRatio_sr = 50.0;
 constexpr double kClumpShare = 0.1;

@@ -7,6 +7,8 @@
 
 namespace plumbline {
 
+inline constexpr double kSpeedOfLight_mps = 299792458.0;
+
 /// A laser and its receiver on the turning head, x ahead, y left, z along the axis.
 struct LidarBeam {
   double elevation_deg = 0.0;      ///< above the plane square to the axis

@@ -6,11 +6,12 @@
 #include <numbers>
 #include <numeric>
 
+#include "sim/constants.h"
+
 namespace plumbline {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180.0;
 
 std::int64_t picoseconds(double seconds) { return std::llround(seconds * 1e12); }
 

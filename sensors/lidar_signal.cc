@@ -8,7 +8,6 @@ namespace plumbline {
 namespace {
 
 constexpr double kReferenceReflectivity = 0.1;  // of LidarModel::range_at_10_percent_m
-constexpr double kSpeedOfLight_mps = 299792458.0;
 constexpr double kFwhmOverSigma = 2.3548;
 // Of a Gaussian beam, whose full width is taken where it has fallen to 1/e^2.
 constexpr double kWidthOverSigma = 4.0;

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/constants.h"
+
 namespace plumbline {
 namespace {
-
-constexpr double kDegree = M_PI / 180.0;
-constexpr double kGravity = 9.81;
 
 /// Height from a heel that struck `since_s` ago, of peak acceleration 1 [m/s^2]: a damped swing of the trunk,
 /// pushed up first. Its onset is soft enough to be twice differentiable.

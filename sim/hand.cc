@@ -5,11 +5,11 @@
 #include <stdexcept>
 
 #include "estimator/geometry/so3.h"
+#include "sim/constants.h"
 
 namespace plumbline {
 namespace {
 
-constexpr double kDegree = M_PI / 180.0;
 const Eigen::Vector3d kBodyFromWrist{0.12, 0.0, 0.05};  // where the body sits, seen from the wrist [m]
 
 Eigen::Vector3d values_of(const std::vector<SmoothNoise>& noise, std::size_t first, double time_s) {

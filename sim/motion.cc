@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "sim/constants.h"
 #include "sim/course.h"
 #include "sim/random_stream.h"
 #include "sim/tum_file.h"
@@ -12,8 +13,6 @@ namespace plumbline {
 namespace {
 
 constexpr double kStep_s = Course::kStep_s;
-constexpr double kGravity = 9.81;
-constexpr double kDegree = M_PI / 180.0;
 constexpr double kMaxDuration_s = 20000.0;
 
 /// Body attitude of a rotor craft: z along the thrust that the path's acceleration needs, x towards the heading.

@@ -25,7 +25,7 @@ Eigen::AlignedBox3d bounds_of(const World& world, int geom) {
   return {bounds.min() - margin, bounds.max() + margin};
 }
 
-Eigen::AlignedBox2d plan_of(const Eigen::AlignedBox3d& box) {
+Eigen::AlignedBox2d plan_of_box(const Eigen::AlignedBox3d& box) {
   return {Eigen::Vector2d(box.min().head<2>()), Eigen::Vector2d(box.max().head<2>())};
 }
 
@@ -46,7 +46,7 @@ TileIndex::TileIndex(const World& world) {
     }
     const Eigen::AlignedBox3d bounds = bounds_of(world, geom);
     all.extend(bounds);
-    for_each_tile(plan_of(bounds), [&](const TileKey& key) { geoms_[key].push_back(geom); });
+    for_each_tile(plan_of_box(bounds), [&](const TileKey& key) { geoms_[key].push_back(geom); });
   }
   if (!all.isEmpty()) {
     lowest_m_ = all.min().z();
@@ -62,7 +62,7 @@ TileIndex::TileIndex(const World& world) {
 std::vector<TileKey> TileIndex::near(const Eigen::Vector3d& place, double distance_m) const {
   const Eigen::Array3d reach = Eigen::Array3d::Constant(distance_m);
   std::vector<TileKey> keys;
-  for_each_tile(plan_of({place.array() - reach, place.array() + reach}), [&](const TileKey& key) {
+  for_each_tile(plan_of_box({place.array() - reach, place.array() + reach}), [&](const TileKey& key) {
     if (boundless_.empty() && !geoms_.contains(key)) return;
     if (box_of(key).exteriorDistance(place) <= distance_m) keys.push_back(key);
   });

@@ -1,4 +1,5 @@
-# Fails when a folder includes one that stands below it in the house, or when a header of ours pulls in a heavy library.
+# Fails when a folder includes one that stands below it in the house, or when a header of ours pulls in a heavy library
+# or has an unnamed namespace.
 # Run as: cmake -D ROOT=<source folder> -P check_layers.cmake
 # check(<folder> <allowed regex>...): every include of ours in <folder> must match one of the patterns.
 function(check folder)
@@ -30,3 +31,13 @@ check(sim "sim/" "estimator/geometry/")
 check(sensors "sensors/" "sim/" "estimator/messages.h" "estimator/geometry/")
 check(scenarios "scenarios/" "sensors/" "sim/" "estimator/")
 check(tools "tools/" "scenarios/" "sensors/" "sim/" "estimator/")
+
+foreach(folder estimator sim sensors scenarios tools tests)
+  file(GLOB_RECURSE headers RELATIVE ${ROOT} ${ROOT}/${folder}/*.h)
+  foreach(header IN LISTS headers)
+    file(STRINGS ${ROOT}/${header} unnamed REGEX "^namespace {")
+    if(unnamed)
+      message(SEND_ERROR "${header}: an unnamed namespace in a header")
+    endif()
+  endforeach()
+endforeach()

@@ -7,6 +7,7 @@
 
 #include "estimator/geometry/interpolation.h"
 #include "estimator/geometry/so3.h"
+#include "estimator/imu/squared.h"
 
 namespace plumbline {
 namespace {
@@ -26,8 +27,6 @@ constexpr double kLargestInnovation = 3.7;
 // Depths of one key-frame err by a factor that its features share, and with it the translation since: against the truth
 // 0.3 % in the middle, with outliers of 2 to 15 % where the motion that placed the lidar's points was wrong.
 constexpr double kSharedDepthError = 0.01;
-
-double squared(double x) { return x * x; }
 
 /// Forced 6-DOF knows no conditioning: its solution replaces the prediction along every direction (thesis 5.7 with all
 /// coefficients one). Directions below the middle of the spectrum are taken as sure as the middle.

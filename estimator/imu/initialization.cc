@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "estimator/geometry/so3.h"
+#include "estimator/imu/squared.h"
 
 namespace plumbline {
 namespace {
@@ -24,9 +25,7 @@ constexpr double kImplausibleBias = 5.0;  // turn-on sigmas; more than that abou
 constexpr double kSurprise = 3.0;         // sigmas
 constexpr double kStillStray = 5.0;       // times the noise's own walk: a hand strays 12 times as far, an idle engine 3
 constexpr double kRestSigma = 1e-4;       // [rad, m] a sample
-constexpr double kDensityMargin = 2.0;    // of a single sample: rounding to the unit's steps adds to its noise
-
-double squared(double x) { return x * x; }
+constexpr double kSampleMargin = 2.0;     // of a single sample: rounding to the unit's steps adds to its noise
 
 /// Range of the walk that the deviations from the mean integrate to, the longest axis.
 template <typename Reading>
@@ -123,7 +122,7 @@ bool Initializer::manoeuvring(const Excursion& excursion) const {
 }
 
 Matrix6d Initializer::increment_covariance() const {
-  const double sample_sigma = kDensityMargin * noise_.accel_density * std::sqrt(rate_hz_) / kStandardGravity;
+  const double sample_sigma = kSampleMargin * noise_.accel_density * std::sqrt(rate_hz_) / kStandardGravity;
   const double n = std::max<double>(2.0, static_cast<double>(samples_.size()));
   Vector6d variance = Vector6d::Constant(kRestSigma * kRestSigma);
   variance.head<2>().array() += sample_sigma * sample_sigma / (n * (n - 1.0));

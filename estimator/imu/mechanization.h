@@ -33,6 +33,9 @@ struct InertialSegment {
   InertialSegment part(std::int64_t from_ns, std::int64_t to_ns) const;
 };
 
+/// Over a longer gap the line between two samples is worth nothing.
+inline constexpr std::int64_t kMaxImuGap_ns = 500'000'000;
+
 /// The segment from one sample to the next; the slope is the difference of neighbouring means.
 InertialSegment segment_between(const ImuSample& previous, const ImuSample& sample);
 

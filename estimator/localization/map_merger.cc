@@ -11,8 +11,8 @@
 namespace plumbline {
 namespace {
 
-constexpr int kPlaneBudget = 20'000;
-constexpr int kEdgeBudget = 4'000;
+constexpr int kMergePlaneBudget = 20'000;
+constexpr int kMergeEdgeBudget = 4'000;
 constexpr int kLeastFeatures = 500;
 constexpr int kRounds = 3;  // each with what the one before has brought near
 
@@ -58,8 +58,8 @@ Overlap overlap_of(const FeatureCloud& b, const Occupancy& a, const Pose& a_from
 ScanMatcher matcher_on(const PriorMap& map) {
   ScanMatcherConfig config;
   config.largest_plane_disagreement = 1.0;
-  config.plane_budget = kPlaneBudget;
-  config.edge_budget = kEdgeBudget;
+  config.plane_budget = kMergePlaneBudget;
+  config.edge_budget = kMergeEdgeBudget;
   config.max_iterations = 20;
   ScanMatcher matcher(Calibration{}, config, /*remapping=*/true);
   matcher.insert(map.surfaces, Pose{}, /*path_m=*/0.0);
@@ -105,7 +105,7 @@ void add_residuals(ScanMatcher& matcher, const Fit& found, MapAlignment& alignme
 double support_of(const ScanMatcher& matcher, const Fit& found) {
   if (matcher.rows().empty()) return 0.0;
   std::vector<FeaturePoint> planes;
-  for (const std::uint32_t i : sample_by_direction(found.overlap.features.planes, kPlaneBudget)) {
+  for (const std::uint32_t i : sample_by_direction(found.overlap.features.planes, kMergePlaneBudget)) {
     planes.push_back(found.overlap.features.planes[i]);
   }
   return map_support(plane_information(planes, matcher.rows().front().sigma_m), found.solved.information,

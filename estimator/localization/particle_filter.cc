@@ -13,9 +13,9 @@ namespace plumbline {
 namespace {
 
 constexpr std::uint64_t kSeed = 1;
-constexpr double kCoarseVoxel_m = 10.0;
+constexpr double kFieldVoxel_m = 10.0;
 constexpr double kResolution_m = 0.4;  // as the matcher's
-constexpr int kNeighbours = 10;
+constexpr int kFieldNeighbours = 10;
 constexpr double kReach_m = 1.0;
 constexpr int kPoints = 2000;  // likewise
 
@@ -28,7 +28,7 @@ constexpr double kRandomShare = 0.1;
 constexpr double kSigma_m = 0.05;
 constexpr double kPower = 0.1;
 constexpr double kDriftInterval_s = 2.0;  // over which OdometryDrift tells the drift at rest
-constexpr double kClose_m = 0.08;
+constexpr double kOnMap_m = 0.08;
 constexpr double kLeastInformation = 1000.0;  // the matcher's threshold, for our larger sigma
 
 double hit_density(double distance_m) {
@@ -61,7 +61,7 @@ Matrix6d spread_of(const std::vector<Pose>& poses, const std::vector<double>& we
 }  // namespace
 
 ParticleFilter::ParticleFilter(const Calibration& calibration, const PriorMap& map, const Pose& map_from_start)
-    : planes_(kCoarseVoxel_m, kResolution_m),
+    : planes_(kFieldVoxel_m, kResolution_m),
       occupancy_(map.surfaces),
       gate_(map_from_start),
       random_(kSeed),
@@ -100,14 +100,14 @@ ParticleFilter::Likelihood ParticleFilter::likelihood(const std::vector<FeatureP
   for (const FeaturePoint& f : points) {
     const Eigen::Vector3d place = map_from_body * f.position.cast<double>();
     const Eigen::Vector3d normal = map_from_body.rotation * f.normal.cast<double>();
-    NearestSamples nearest(kNeighbours, kReach_m, normal.cast<float>());
+    NearestSamples nearest(kFieldNeighbours, kReach_m, normal.cast<float>());
     planes_.nearest(place, kReach_m, nearest);
     const auto patch = fit_plane(nearest, limits_);
     double density = kRandomShare / kReach_m;
     if (patch) {
       const double distance_m = std::abs(patch->normal.dot(place) - patch->offset);
       density += kHitShare * hit_density(distance_m);
-      if (distance_m < kClose_m) result.on_map.push_back(f);
+      if (distance_m < kOnMap_m) result.on_map.push_back(f);
     }
     result.log += kPower * std::log(density);
   }

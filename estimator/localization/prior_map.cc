@@ -17,7 +17,7 @@ namespace {
 constexpr double kCellWithNormals_m = 0.1;
 constexpr double kCellWithoutNormals_m = 0.2;
 constexpr double kCoarseVoxel_m = 10.0;
-constexpr int kNeighbours = 10;
+constexpr int kNormalNeighbours = 10;
 
 /// Normals tell one surface from another that stands across it; the planes to match are fitted later.
 FitLimits normal_limits(double cell_m) {
@@ -135,7 +135,7 @@ void PriorMapBuilder::find_normals(FeatureCloud& surfaces) const {
   const FitLimits limits = normal_limits(map_.cell_m);
   const double reach_m = 5.0 * map_.cell_m;
   for (std::size_t i = 0; i < cells_.size(); ++i) {
-    NearestSamples nearest(kNeighbours, reach_m, Eigen::Vector3f::Zero());
+    NearestSamples nearest(kNormalNeighbours, reach_m, Eigen::Vector3f::Zero());
     all.nearest(positions[i], reach_m, nearest);
     const auto plane = fit_plane(nearest, limits);
     if (!plane) continue;

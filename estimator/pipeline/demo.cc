@@ -11,18 +11,17 @@
 namespace plumbline {
 namespace {
 
-constexpr std::int64_t kTrackLength_ns = 3'000'000'000;
+constexpr std::int64_t kOdometryTrack_ns = 3'000'000'000;
 /// A scan waits for an image taken after its end; if none comes it makes do with constant velocity.
 constexpr std::int64_t kLongestWait_ns = 200'000'000;
 /// The rows of one image share errors that whitening does not know, such as those of the depth map.
-constexpr double kInflation = 10.0;
+constexpr double kImageInflation = 10.0;
 /// What constant velocity foresees of the next image: see FrameToFrameConfig::degeneracy_threshold.
 constexpr double kPredictionInformation = 2500.0;
 /// Of a sweep's predicted pose besides the motion since the last one: the map's own.
 constexpr double kMapRotationSigma = 0.002;
 constexpr double kMapTranslationSigma_m = 0.02;
 constexpr double kLost_s = 2.0;  // without any image that could be solved
-constexpr double kLostSigma_m = 10.0;
 
 FrameToFrameConfig vision_config(const DemoConfig& stages) {
   FrameToFrameConfig config;
@@ -38,7 +37,7 @@ MessageUse clocked_use(const Calibration& calibration, EstimatorConfig config) {
 Matrix6d step_covariance(const FrameToFrame::Step& step) {
   const Matrix6d prior = kPredictionInformation * Matrix6d::Identity();
   const Matrix6d information = step.skipped ? prior : Matrix6d(step.solved.information + prior);
-  return kInflation * information.ldlt().solve(Matrix6d::Identity());
+  return kImageInflation * information.ldlt().solve(Matrix6d::Identity());
 }
 
 /// A covariance of world_from_body carried over to the body after a motion.
@@ -93,7 +92,7 @@ void Demo::see(const Frame& frame) {
   const std::int64_t previous_ns = vision_.newest_ns();
   const FrameToFrame::Step step = vision_.process(frame);
   odometry_.push(frame.stamp_ns, vision_.odometry_from_body());
-  odometry_.forget_before(frame.stamp_ns - kTrackLength_ns);
+  odometry_.forget_before(frame.stamp_ns - kOdometryTrack_ns);
   if (has_previous) note(step, previous_ns);
   use_scans(frame.stamp_ns);
   adjust_when_due();

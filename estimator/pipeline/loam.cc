@@ -10,16 +10,14 @@
 namespace plumbline {
 namespace {
 
-constexpr std::int64_t kTrackLength_ns = 3'000'000'000;  // the sweep before, the growing one and a late arrival
+constexpr std::int64_t kSweepTrack_ns = 3'000'000'000;  // the sweep before, the growing one and a late arrival
 // After a longer silence of the lidar the motion is no longer linear: odometry starts anew.
 constexpr std::int64_t kLongestGap_ns = 2'500'000'000;
-constexpr std::int64_t kMaxImuGap_ns = 500'000'000;
 
 // A solution's rows share errors that whitening does not know: the map's, or the last sweep's.
-constexpr double kInflation = 25.0;
+constexpr double kSweepInflation = 25.0;
 constexpr int kFirstSweepRounds = 3;
 constexpr int kFirstEffort = 6;
-constexpr double kLostSigma_m = 10.0;
 
 // Where the lidar alone tells the pose, odometry may be wrong by this much when it comes to matching with the map.
 constexpr double kOdometrySigma_m = 0.1;
@@ -96,7 +94,7 @@ void Loam::advance_to(std::int64_t stamp_ns, const InertialSegment& segment) {
   if (filter_) filter_->predict(part);
   if (steady_) steady_->predict(part);
   track_.push(stamp_ns, state().world_from_body);
-  track_.forget_before(stamp_ns - kTrackLength_ns);
+  track_.forget_before(stamp_ns - kSweepTrack_ns);
 }
 
 void Loam::add(const LidarScan& scan) {
@@ -209,7 +207,7 @@ void Loam::take_motion(std::int64_t now_ns) {
 
 void Loam::take_pose(const SolveResult& solved, const Pose& predicted) {
   const Pose before = state().world_from_body;
-  if (filter_) filter_->update_pose(solved, predicted, kInflation);
+  if (filter_) filter_->update_pose(solved, predicted, kSweepInflation);
   if (steady_) steady_->move(solved.pose * predicted.inverse() * before);
   track_.premultiply(state().world_from_body * before.inverse());
 }

@@ -13,15 +13,11 @@ namespace {
 constexpr std::int64_t kTrackLength_ns = MessageGate::kLongestDelay_ns + SweepAssembler::kLongest_ns;
 constexpr std::int64_t kTurnTrackLength_ns = 3'000'000'000;  // longer than a key-frame lasts while its tracks do
 constexpr std::int64_t kIncrementWindow_ns = 1'000'000'000;
-constexpr std::int64_t kMaxImuGap_ns = 500'000'000;
 
 // A solution's rows share errors that whitening does not know: features of one key-frame share its depth errors over
 // dozens of frames. Those of scan matching are the map's (see InertialFilter and MatchDrift).
 constexpr double kVisionInflation = 25.0;
 constexpr double kLidarInflation = 1.0;
-
-// The estimator stops believing its position when the filter's own standard deviation exceeds this [m].
-constexpr double kLostSigma_m = 10.0;
 
 /// Without an IMU its samples are a clock: no rate, no force, and "biases" free enough to be the motion itself, which
 /// makes the mechanisation a constant-rate, constant-acceleration predictor.
@@ -61,7 +57,6 @@ void Vloam::add(const ImuSample& received) {
     if (const auto start = initializer_.add(*sample)) start_with(*start, *sample);
   } else {
     InertialSegment segment = segment_between(previous, *sample);
-    // Over a gap the line between the samples is worth nothing.
     if (sample->stamp_ns - previous.stamp_ns > kMaxImuGap_ns) segment.rate_slope = segment.force_slope.setZero();
     while (const auto message = gate_.next(sample->stamp_ns)) {
       advance_to(stamp_of(*message), segment);

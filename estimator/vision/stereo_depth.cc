@@ -12,12 +12,12 @@ namespace {
 
 constexpr double kNearest_m = 0.4;
 constexpr int kMostSteps = 600;  // [px] along the line: half a metre before a pair 0.54 m apart
-constexpr double kLeastCorrelation = 0.8;
+constexpr double kLeastStereoCorrelation = 0.8;
 /// The next best place along the line, if it is another place, must be clearly worse, or texture repeats itself.
 constexpr double kMostOfTheBest = 0.6;  // of what the best leaves to a correlation of one
 constexpr int kSamePlace = 4;           // [px]
 constexpr double kBaselineRelativeError = 0.002;
-constexpr float kBorder = kPatchRadius + 2.0F;
+constexpr float kStereoBorder = kPatchRadius + 2.0F;
 
 }  // namespace
 
@@ -39,7 +39,7 @@ std::optional<Eigen::Vector2f> StereoDepth::search(const GreyView& left_image, c
                                                    const Feature& feature) const {
   const auto far = right_pinhole_pixel(feature, 0.0);
   const auto near = right_pinhole_pixel(feature, 1.0 / kNearest_m);
-  if (!far || !near || !inside(left_image, feature.pixel, kBorder)) return std::nullopt;
+  if (!far || !near || !inside(left_image, feature.pixel, kStereoBorder)) return std::nullopt;
   const Patch wanted = read_patch(left_image, feature.pixel);
   const int steps = std::clamp(static_cast<int>((*near - *far).norm()) + 1, 1, kMostSteps);
   const Eigen::Vector2d step = (*near - *far).normalized();
@@ -47,11 +47,11 @@ std::optional<Eigen::Vector2f> StereoDepth::search(const GreyView& left_image, c
   std::size_t best = 0;
   for (std::size_t i = 0; i < scores.size(); ++i) {
     const Eigen::Vector2f pixel = image_pixel(right_.intrinsics, *far + static_cast<double>(i) * step);
-    if (!inside(right_image, pixel, kBorder)) continue;
+    if (!inside(right_image, pixel, kStereoBorder)) continue;
     scores[i] = correlation(wanted, read_patch(right_image, pixel));
     if (scores[i] > scores[best]) best = i;
   }
-  if (scores[best] < kLeastCorrelation) return std::nullopt;
+  if (scores[best] < kLeastStereoCorrelation) return std::nullopt;
   for (std::size_t i = 0; i < scores.size(); ++i) {
     const bool elsewhere = std::max(i, best) - std::min(i, best) > kSamePlace;
     if (elsewhere && 1.0 - scores[best] > kMostOfTheBest * (1.0 - scores[i])) return std::nullopt;

@@ -18,7 +18,7 @@ constexpr double kReachM = 300.0;
 constexpr double kParapetM = 0.6;
 constexpr double kPavedHalfM = 2.5;  // of the paving around the building, to both sides of the way
 
-struct Plan {
+struct BuildingPlan {
   Eigen::Vector2d half = Eigen::Vector2d::Zero();
   double height = 0.0;
   double way = 0.0;
@@ -41,7 +41,7 @@ std::vector<Side> sides_of(const Eigen::Vector2d& half) {
 }
 
 // Piers and bands stand out of a wall of glass: what they leave are the windows.
-void add_facade(MjcfWriter& writer, const Plan& plan, const Side& side, const std::string& name) {
+void add_facade(MjcfWriter& writer, const BuildingPlan& plan, const Side& side, const std::string& name) {
   constexpr double kStoreyM = 3.6;
   constexpr double kProudM = 0.2;
   RandomStream stream(plan.seed, name);
@@ -95,7 +95,7 @@ void add_roof_unit(MjcfWriter& writer, RandomStream& stream, const Pose& frame) 
   }
 }
 
-void add_roof(MjcfWriter& writer, const Plan& plan) {
+void add_roof(MjcfWriter& writer, const BuildingPlan& plan) {
   RandomStream stream(plan.seed, "building/roof");
   const double pitch = std::max(6.0, std::sqrt(4.0 * plan.half.x() * plan.half.y()) / 9.0);
   for (double x = -plan.half.x() + 4.0; x <= plan.half.x() - 4.0; x += pitch) {
@@ -108,7 +108,7 @@ void add_roof(MjcfWriter& writer, const Plan& plan) {
 }
 
 // The body of the house, in stretches whose roofs differ.
-void add_core(MjcfWriter& writer, const Plan& plan) {
+void add_core(MjcfWriter& writer, const BuildingPlan& plan) {
   RandomStream stream(plan.seed, "building/core");
   const std::vector<double> cuts = random_cuts(stream, -plan.half.x(), plan.half.x(), 6.0, 12.0);
   std::string roof;
@@ -119,7 +119,7 @@ void add_core(MjcfWriter& writer, const Plan& plan) {
   }
 }
 
-void add_ground(MjcfWriter& writer, const Plan& plan) {
+void add_ground(MjcfWriter& writer, const BuildingPlan& plan) {
   RandomStream stream(plan.seed, "building/ground");
   const std::vector<std::string> paving = {"asphalt_worn", "gravel_path", "floor_tiles", "concrete_dark"};
   const std::vector<std::string> lawn = {"lawn_short", "lawn_short", "gravel_path"};
@@ -136,7 +136,7 @@ void add_ground(MjcfWriter& writer, const Plan& plan) {
 }
 
 // Outside the way: trees, lamp posts, benches, parked things; beyond them other houses.
-void add_surroundings(MjcfWriter& writer, const Plan& plan, const Side& side, const std::string& name) {
+void add_surroundings(MjcfWriter& writer, const BuildingPlan& plan, const Side& side, const std::string& name) {
   RandomStream stream(plan.seed, name);
   const double half = side.length / 2.0;
   for (double x = -half; x < half; x += stream.uniform(5.0, 9.0)) {
@@ -160,7 +160,7 @@ void add_surroundings(MjcfWriter& writer, const Plan& plan, const Side& side, co
   }
 }
 
-Route flight_over(const Plan& plan) {
+Route flight_over(const BuildingPlan& plan) {
   constexpr double kAboveRoofM = 5.0;
   constexpr double kStartM = 1.0;
   const double x = 0.415 * 2.0 * plan.half.x();
@@ -182,10 +182,10 @@ Route flight_over(const Plan& plan) {
 }
 
 SceneDescription build_building(const SceneValues& values, std::uint64_t world_seed) {
-  const Plan plan{.half = {values.at("length_m") / 2.0, values.at("width_m") / 2.0},
-                  .height = values.at("height_m"),
-                  .way = values.at("way_m"),
-                  .seed = world_seed};
+  const BuildingPlan plan{.half = {values.at("length_m") / 2.0, values.at("width_m") / 2.0},
+                          .height = values.at("height_m"),
+                          .way = values.at("way_m"),
+                          .seed = world_seed};
   MjcfWriter writer;
   add_ground(writer, plan);
   add_core(writer, plan);

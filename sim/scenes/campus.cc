@@ -23,7 +23,7 @@ constexpr double kPathHalf_m = 2.4;
 constexpr double kHalfWidth_m = 38.0;
 constexpr double kCorner_m = 45.0;
 
-struct Plan {
+struct CampusPlan {
   RoadLine line;
   std::uint64_t seed;
 
@@ -60,7 +60,7 @@ struct Plan {
   }
 };
 
-Plan make_plan(double length_m, std::uint64_t seed) {
+CampusPlan make_plan(double length_m, std::uint64_t seed) {
   RandomStream stream(seed, "campus/line");
   const int corners = length_m < 1000.0 ? 4 : 9;
   std::vector<Vector2d> polygon;
@@ -94,7 +94,7 @@ House draw_institute(RandomStream& stream) {
   return house;
 }
 
-void add_buildings(Scenery& scenery, const Plan& plan, std::uint64_t seed) {
+void add_buildings(Scenery& scenery, const CampusPlan& plan, std::uint64_t seed) {
   for (const double sign : {-1.0, 1.0}) {
     RandomStream stream(seed, sign > 0.0 ? "campus/left" : "campus/right");
     double s = stream.uniform(5.0, 15.0);
@@ -114,7 +114,7 @@ void add_buildings(Scenery& scenery, const Plan& plan, std::uint64_t seed) {
 }
 
 /// Whether a place is on open ground: no wall within 2 m is known, so greenery keeps to where buildings never are.
-void add_greenery(Scenery& scenery, const Plan& plan, double density, std::uint64_t seed) {
+void add_greenery(Scenery& scenery, const CampusPlan& plan, double density, std::uint64_t seed) {
   for (const double sign : {-1.0, 1.0}) {
     RandomStream stream(seed, sign > 0.0 ? "campus/green/left" : "campus/green/right");
     for (double s = stream.uniform(2.0, 10.0); s < plan.line.length(); s += stream.uniform(6.0, 17.0)) {
@@ -145,7 +145,7 @@ void add_greenery(Scenery& scenery, const Plan& plan, double density, std::uint6
   }
 }
 
-void add_things(Outdoors& outdoors, const Plan& plan, std::uint64_t seed) {
+void add_things(Outdoors& outdoors, const CampusPlan& plan, std::uint64_t seed) {
   RandomStream stream(seed, "campus/things");
   Scenery& scenery = outdoors.scenery;
   double sign = 1.0;
@@ -168,7 +168,7 @@ void add_things(Outdoors& outdoors, const Plan& plan, std::uint64_t seed) {
 }
 
 SceneDescription build_campus(const SceneValues& values, std::uint64_t world_seed) {
-  const Plan plan = make_plan(values.at("length_m"), world_seed);
+  const CampusPlan plan = make_plan(values.at("length_m"), world_seed);
   Outdoors outdoors;
   const double length = plan.line.length();
   add_ribbon(

@@ -75,7 +75,7 @@ void add_cabin(Scenery& scenery, const std::string& paint, const CarShape& car, 
 
 void add_wheel(Scenery& scenery, const Pose& frame, double x, double y, double radius) {
   constexpr int kSides = 8;
-  constexpr double kHalfWidth_m = 0.11;
+  constexpr double kHalfTread_m = 0.11;
   std::vector<Vector2d> disc;
   std::vector<Vector2d> hub;
   for (int i = 0; i < kSides; ++i) {
@@ -84,8 +84,8 @@ void add_wheel(Scenery& scenery, const Pose& frame, double x, double y, double r
     disc.emplace_back(Vector2d(x, radius) + radius * out);
     hub.emplace_back(Vector2d(x, radius) + 0.55 * radius * out);
   }
-  scenery.prism("rubber", disc, y - kHalfWidth_m, y + kHalfWidth_m, frame);
-  scenery.prism("steel", hub, y - kHalfWidth_m - 0.01, y + kHalfWidth_m + 0.01, frame);
+  scenery.prism("rubber", disc, y - kHalfTread_m, y + kHalfTread_m, frame);
+  scenery.prism("steel", hub, y - kHalfTread_m - 0.01, y + kHalfTread_m + 0.01, frame);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kWayM = 1.35;  // from the walls to the middle of the way around the table
 
-struct Plan {
+struct RoomPlan {
   Eigen::Vector2d half = Eigen::Vector2d::Zero();
   double height = 0.0;
   double furniture = 0.0;
@@ -35,7 +35,7 @@ void add_papers(MjcfWriter& writer, RandomStream& stream, const Eigen::Vector3d&
   }
 }
 
-void add_table_and_chairs(MjcfWriter& writer, const Plan& plan) {
+void add_table_and_chairs(MjcfWriter& writer, const RoomPlan& plan) {
   constexpr double kSeatM = 0.8;
   RandomStream stream(plan.seed, "conference_room/table");
   const Eigen::Vector2d table = plan.table();
@@ -76,7 +76,7 @@ void add_window(MjcfWriter& writer, const Pose& world_from_wall, double along, d
                .depth_m = 0.12});
 }
 
-void add_things_at_walls(MjcfWriter& writer, const Plan& plan, const std::vector<Wall>& walls) {
+void add_things_at_walls(MjcfWriter& writer, const RoomPlan& plan, const std::vector<Wall>& walls) {
   RandomStream stream(plan.seed, "conference_room/walls");
   const auto place = [&](const Wall& wall, double share) {
     return frame_of(wall) * upright_frame({share * (wall.to - wall.from).norm(), 0.0, 0.0}, 0.0);
@@ -111,10 +111,10 @@ void add_things_at_walls(MjcfWriter& writer, const Plan& plan, const std::vector
 }
 
 SceneDescription build_conference_room(const SceneValues& values, std::uint64_t world_seed) {
-  const Plan plan{.half = {values.at("length_m") / 2.0, values.at("width_m") / 2.0},
-                  .height = values.at("height_m"),
-                  .furniture = values.at("furniture"),
-                  .seed = world_seed};
+  const RoomPlan plan{.half = {values.at("length_m") / 2.0, values.at("width_m") / 2.0},
+                      .height = values.at("height_m"),
+                      .furniture = values.at("furniture"),
+                      .seed = world_seed};
   MjcfWriter writer;
   RandomStream shell_stream(world_seed, "conference_room/shell");
   RoomShell shell{.half_size = plan.half,

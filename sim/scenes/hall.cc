@@ -16,7 +16,7 @@ constexpr double kWallM = 0.2;
 constexpr double kColumnInsetM = 3.2;  // from a wall to the columns' axes
 constexpr double kFreeBelowM = 2.0;    // things on the open floor stay below this
 
-struct Plan {
+struct HallPlan {
   double half_length = 0.0;
   double half_width = 0.0;
   double height = 0.0;
@@ -25,7 +25,7 @@ struct Plan {
   std::uint64_t seed = 0;
 };
 
-std::vector<Wall> walls_of(const Plan& plan) {
+std::vector<Wall> walls_of(const HallPlan& plan) {
   return rectangle_walls({plan.half_length, plan.half_width}, plan.height);
 }
 
@@ -45,7 +45,7 @@ void add_boards(MjcfWriter& writer, const Wall& wall, RandomStream& stream) {
   }
 }
 
-void add_walls(MjcfWriter& writer, const Plan& plan) {
+void add_walls(MjcfWriter& writer, const HallPlan& plan) {
   RandomStream stream(plan.seed, "hall/walls");
   for (const Wall& wall : walls_of(plan)) {
     add_wall(writer, wall, wall_materials(), stream);
@@ -53,7 +53,7 @@ void add_walls(MjcfWriter& writer, const Plan& plan) {
   }
 }
 
-void add_floor_and_ceiling(MjcfWriter& writer, const Plan& plan) {
+void add_floor_and_ceiling(MjcfWriter& writer, const HallPlan& plan) {
   RandomStream stream(plan.seed, "hall/grounds");
   constexpr int kAcross = 5;
   constexpr int kAlong = 6;
@@ -71,7 +71,7 @@ void add_floor_and_ceiling(MjcfWriter& writer, const Plan& plan) {
   }
 }
 
-std::vector<double> column_rows(const Plan& plan) {
+std::vector<double> column_rows(const HallPlan& plan) {
   const double reach = plan.half_length - kColumnInsetM;
   const int count = std::max(1, static_cast<int>(std::lround(2.0 * reach / plan.column_spacing)));
   std::vector<double> rows;
@@ -80,7 +80,7 @@ std::vector<double> column_rows(const Plan& plan) {
 }
 
 // Columns with a beam across the hall from each to the one opposite.
-void add_columns_and_beams(MjcfWriter& writer, const Plan& plan) {
+void add_columns_and_beams(MjcfWriter& writer, const HallPlan& plan) {
   RandomStream stream(plan.seed, "hall/columns");
   const double y = plan.half_width - kColumnInsetM;
   int row_number = 0;
@@ -100,7 +100,8 @@ void add_columns_and_beams(MjcfWriter& writer, const Plan& plan) {
 }
 
 // Uprights, shelves, and crates on those. The rack's frame is the wall's: x along it, y into the hall.
-void add_rack(MjcfWriter& writer, const Plan& plan, const Pose& world_from_wall, double along, RandomStream& stream) {
+void add_rack(MjcfWriter& writer, const HallPlan& plan, const Pose& world_from_wall, double along,
+              RandomStream& stream) {
   constexpr double kLength = 3.6;
   constexpr double kDepth = 1.1;
   constexpr double kTop = 4.2;
@@ -119,7 +120,7 @@ void add_rack(MjcfWriter& writer, const Plan& plan, const Pose& world_from_wall,
   }
 }
 
-void add_racks(MjcfWriter& writer, const Plan& plan) {
+void add_racks(MjcfWriter& writer, const HallPlan& plan) {
   RandomStream stream(plan.seed, "hall/racks");
   for (const Wall& wall : walls_of(plan)) {
     const double length = (wall.to - wall.from).norm();
@@ -130,7 +131,7 @@ void add_racks(MjcfWriter& writer, const Plan& plan) {
 }
 
 // Crates on the open floor, low enough to fly over.
-void add_floor_crates(MjcfWriter& writer, const Plan& plan) {
+void add_floor_crates(MjcfWriter& writer, const HallPlan& plan) {
   constexpr double kPitch = 6.0;
   const double x_reach = plan.half_length - 5.0;
   const double y_reach = plan.half_width - 5.0;
@@ -145,7 +146,7 @@ void add_floor_crates(MjcfWriter& writer, const Plan& plan) {
   }
 }
 
-void add_lamps(MjcfWriter& writer, const Plan& plan) {
+void add_lamps(MjcfWriter& writer, const HallPlan& plan) {
   RandomStream stream(plan.seed, "hall/lamps");
   constexpr double kSpacing = 8.0;
   const int along = static_cast<int>(2.0 * plan.half_length / kSpacing);
@@ -162,7 +163,7 @@ void add_lamps(MjcfWriter& writer, const Plan& plan) {
 }
 
 // Two loops side by side, rising and falling within the free volume above the crates.
-Route figure_of_eight(const Plan& plan) {
+Route figure_of_eight(const HallPlan& plan) {
   const int points = static_cast<int>(2.0 * (plan.half_length + plan.half_width));
   const double x = plan.half_length - 7.0;
   const double y = plan.half_width - 6.5;
@@ -177,18 +178,18 @@ Route figure_of_eight(const Plan& plan) {
   return route;
 }
 
-Route level_flight(const Plan& plan) {
+Route level_flight(const HallPlan& plan) {
   return rectangular_route("level", {0.0, 0.0, 0.4 * plan.height}, {plan.half_length - 7.0, plan.half_width - 6.5},
                            4.0);
 }
 
 SceneDescription build_hall(const SceneValues& values, std::uint64_t world_seed) {
-  const Plan plan{.half_length = values.at("length_m") / 2.0,
-                  .half_width = values.at("width_m") / 2.0,
-                  .height = values.at("height_m"),
-                  .clutter = values.at("clutter"),
-                  .column_spacing = values.at("column_spacing_m"),
-                  .seed = world_seed};
+  const HallPlan plan{.half_length = values.at("length_m") / 2.0,
+                      .half_width = values.at("width_m") / 2.0,
+                      .height = values.at("height_m"),
+                      .clutter = values.at("clutter"),
+                      .column_spacing = values.at("column_spacing_m"),
+                      .seed = world_seed};
   MjcfWriter writer;
   add_walls(writer, plan);
   add_floor_and_ceiling(writer, plan);

@@ -25,7 +25,7 @@ constexpr double kHalfWidth_m = 60.0;
 constexpr double kSlow_m = kInnerEdge_m + 1.5 * kLane_m;
 constexpr double kFast_m = kInnerEdge_m + 0.5 * kLane_m;
 
-struct Plan {
+struct HighwayPlan {
   RoadLine line;
   std::uint64_t seed;
 
@@ -80,7 +80,7 @@ struct Plan {
   }
 };
 
-Plan make_plan(double length_m, std::uint64_t seed) {
+HighwayPlan make_plan(double length_m, std::uint64_t seed) {
   const Winding winding{.length_m = length_m,
                         .min_radius_m = 450.0,
                         .max_radius_m = 1500.0,
@@ -95,7 +95,7 @@ Plan make_plan(double length_m, std::uint64_t seed) {
           derive_seed(seed, "highway/land")};
 }
 
-void add_barriers(Scenery& scenery, const Plan& plan, std::uint64_t seed) {
+void add_barriers(Scenery& scenery, const HighwayPlan& plan, std::uint64_t seed) {
   constexpr double kPiece_m = 12.0;
   RandomStream stream(seed, "highway/barriers");
   bool outer[2] = {false, true};
@@ -124,7 +124,7 @@ void add_barriers(Scenery& scenery, const Plan& plan, std::uint64_t seed) {
   }
 }
 
-void add_things(Outdoors& outdoors, const Plan& plan, double trees_per_km, std::uint64_t seed) {
+void add_things(Outdoors& outdoors, const HighwayPlan& plan, double trees_per_km, std::uint64_t seed) {
   Scenery& scenery = outdoors.scenery;
   const double length = plan.line.length();
   RandomStream posts(seed, "highway/posts");
@@ -157,7 +157,7 @@ void add_things(Outdoors& outdoors, const Plan& plan, double trees_per_km, std::
   }
 }
 
-void add_traffic(Outdoors& outdoors, const Plan& plan, double cars_per_km, std::uint64_t seed) {
+void add_traffic(Outdoors& outdoors, const HighwayPlan& plan, double cars_per_km, std::uint64_t seed) {
   RandomStream stream(seed, "highway/traffic");
   const double length = plan.line.length();
   const auto level = [](double) { return 0.0; };
@@ -176,7 +176,7 @@ void add_traffic(Outdoors& outdoors, const Plan& plan, double cars_per_km, std::
 
 SceneDescription build_highway(const SceneValues& values, std::uint64_t world_seed) {
   const double length = values.at("length_m");
-  const Plan plan = make_plan(length, world_seed);
+  const HighwayPlan plan = make_plan(length, world_seed);
   Outdoors outdoors;
   add_ribbon(
       outdoors.scenery, plan.line, [&](double s) { return plan.section(s); }, 0.0, length, 3.0);

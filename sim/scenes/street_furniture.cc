@@ -14,27 +14,27 @@ namespace {
 using Eigen::Vector3d;
 
 /// x from one place to the other, level, and the rise between them.
-struct Stretch {
+struct Span {
   Pose frame;
   double length = 0.0;
   double rise = 0.0;
 };
 
-Stretch stretch_between(const Vector3d& from, const Vector3d& to) {
+Span span_between(const Vector3d& from, const Vector3d& to) {
   const Vector3d along = to - from;
   return {upright_frame(from, std::atan2(along.y(), along.x())), along.head<2>().norm(), along.z()};
 }
 
-/// A board along a stretch, `low` to `high` above the ground.
-void add_board(Scenery& scenery, const std::string& material, const Stretch& stretch, double from_x, double to_x,
-               double low, double high, double y0, double y1) {
-  const double slope = stretch.rise / stretch.length;
+/// A board along a span, `low` to `high` above the ground.
+void add_board(Scenery& scenery, const std::string& material, const Span& span, double from_x, double to_x, double low,
+               double high, double y0, double y1) {
+  const double slope = span.rise / span.length;
   scenery.prism(material,
                 {{from_x, low + slope * from_x},
                  {to_x, low + slope * to_x},
                  {to_x, high + slope * to_x},
                  {from_x, high + slope * from_x}},
-                y0, y1, stretch.frame);
+                y0, y1, span.frame);
 }
 
 void add_upright(Scenery& scenery, const std::string& material, const Pose& frame, const Vector3d& foot, double height,
@@ -149,52 +149,52 @@ void add_pavement_thing(Scenery& scenery, RandomStream& stream, const Pose& fram
 }
 
 void add_fence(Scenery& scenery, RandomStream& stream, const Vector3d& from, const Vector3d& to, Fence fence) {
-  const Stretch stretch = stretch_between(from, to);
-  const double length = stretch.length;
+  const Span span = span_between(from, to);
+  const double length = span.length;
   if (fence == Fence::kWall) {
     const std::string material = stream.uniform() < 0.5 ? "stone_dark" : "brick_pale";
     const double height = stream.uniform(0.6, 1.3);
-    add_board(scenery, material, stretch, 0.0, length, -0.6, height, -0.14, 0.14);
-    add_board(scenery, "stone_pale", stretch, 0.0, length, height, height + 0.08, -0.19, 0.19);
+    add_board(scenery, material, span, 0.0, length, -0.6, height, -0.14, 0.14);
+    add_board(scenery, "stone_pale", span, 0.0, length, height, height + 0.08, -0.19, 0.19);
     return;
   }
   const double height = fence == Fence::kMesh ? 1.8 : stream.uniform(0.9, 1.2);
   const int posts = std::max(1, static_cast<int>(std::round(length / 2.5)));
   for (int i = 0; i <= posts; ++i) {
     const double x = length * i / posts;
-    const double z = stretch.rise * i / posts;
+    const double z = span.rise * i / posts;
     scenery.block(fence == Fence::kMesh ? "steel" : "crate_wood", {x - 0.05, -0.05, z - 0.4},
-                  {x + 0.05, 0.05, z + height + 0.1}, stretch.frame);
+                  {x + 0.05, 0.05, z + height + 0.1}, span.frame);
   }
   const double rails[] = {0.25, height - 0.2};
-  for (const double z : rails) add_board(scenery, "crate_wood", stretch, 0.0, length, z, z + 0.1, 0.05, 0.09);
+  for (const double z : rails) add_board(scenery, "crate_wood", span, 0.0, length, z, z + 0.1, 0.05, 0.09);
   if (fence == Fence::kRails) return;
   const double pitch = fence == Fence::kMesh ? 0.5 : 0.32;
   const double width = fence == Fence::kMesh ? 0.03 : 0.14;
   for (double x = 0.1; x + width < length; x += pitch) {
     const double top = height + (fence == Fence::kMesh ? 0.0 : stream.uniform(-0.04, 0.04));
-    const double z = stretch.rise * x / length;
-    const auto at = [&](double dx, double up) { return stretch.frame * Vector3d(x + dx, 0.10, z + up); };
+    const double z = span.rise * x / length;
+    const auto at = [&](double dx, double up) { return span.frame * Vector3d(x + dx, 0.10, z + up); };
     scenery.sheet(fence == Fence::kMesh ? "steel" : "crate_wood", at(0.0, 0.05), at(width, 0.05), at(width, top),
                   at(0.0, top));
   }
 }
 
 void add_guard_rail(Scenery& scenery, const Vector3d& from, const Vector3d& to) {
-  const Stretch stretch = stretch_between(from, to);
-  const int posts = std::max(1, static_cast<int>(std::round(stretch.length / 4.0)));
+  const Span span = span_between(from, to);
+  const int posts = std::max(1, static_cast<int>(std::round(span.length / 4.0)));
   for (int i = 0; i < posts; ++i) {
-    const double x = stretch.length * i / posts;
-    const double z = stretch.rise * i / posts;
-    scenery.block("steel", {x - 0.06, -0.05, z - 0.5}, {x + 0.06, 0.05, z + 0.72}, stretch.frame);
+    const double x = span.length * i / posts;
+    const double z = span.rise * i / posts;
+    scenery.block("steel", {x - 0.06, -0.05, z - 0.5}, {x + 0.06, 0.05, z + 0.72}, span.frame);
   }
-  add_board(scenery, "guard_rail", stretch, 0.0, stretch.length, 0.44, 0.75, -0.13, -0.05);
+  add_board(scenery, "guard_rail", span, 0.0, span.length, 0.44, 0.75, -0.13, -0.05);
 }
 
 void add_concrete_barrier(Scenery& scenery, const Vector3d& from, const Vector3d& to) {
-  const Stretch stretch = stretch_between(from, to);
-  add_board(scenery, "concrete_pale", stretch, 0.0, stretch.length, -0.3, 0.22, -0.30, 0.30);
-  add_board(scenery, "concrete_pale", stretch, 0.0, stretch.length, 0.22, 0.85, -0.12, 0.12);
+  const Span span = span_between(from, to);
+  add_board(scenery, "concrete_pale", span, 0.0, span.length, -0.3, 0.22, -0.30, 0.30);
+  add_board(scenery, "concrete_pale", span, 0.0, span.length, 0.22, 0.85, -0.12, 0.12);
 }
 
 void add_marker_post(Scenery& scenery, const Pose& frame) {

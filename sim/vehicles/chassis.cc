@@ -7,10 +7,11 @@
 #include <locale>
 #include <sstream>
 
+#include "sim/constants.h"
+
 namespace plumbline {
 namespace {
 
-constexpr double kGravity = 9.81;
 constexpr std::array<const char*, 4> kCorners{"front_left", "front_right", "rear_left", "rear_right"};
 
 bool is_front(std::size_t i) { return i < 2; }

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/constants.h"
+
 namespace plumbline {
 namespace {
 
-constexpr double kGravity = 9.81;
 constexpr double kLookAhead_s = 0.2;  // the steering's and the tyres' delay
 constexpr double kPlaceGain_hz = 0.8;
 constexpr double kSpeedGain_hz = 2.0;

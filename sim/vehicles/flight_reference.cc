@@ -5,13 +5,12 @@
 
 #include "estimator/geometry/so3.h"
 #include "sim/box_smoothing.h"
+#include "sim/constants.h"
 #include "sim/course.h"
 
 namespace plumbline {
 namespace {
 
-constexpr double kStep_s = Course::kStep_s;
-constexpr double kGravity = 9.81;
 // Snap, which the craft's torques must follow, is still smooth after so many box filters.
 constexpr int kPasses = 6;
 
@@ -19,7 +18,7 @@ constexpr int kPasses = 6;
 template <typename Get>
 std::vector<Eigen::Vector3d> derivative(std::size_t count, Get difference) {
   std::vector<Eigen::Vector3d> result(count, Eigen::Vector3d::Zero());
-  for (std::size_t i = 1; i + 1 < count; ++i) result[i] = difference(i - 1, i + 1) / (2.0 * kStep_s);
+  for (std::size_t i = 1; i + 1 < count; ++i) result[i] = difference(i - 1, i + 1) / (2.0 * Course::kStep_s);
   return result;
 }
 
@@ -45,7 +44,7 @@ FlightReference::FlightReference(const MotionConfig& config, const World& world)
   constexpr double kRounding_m = 2.0;
   const Path path(points_of(config, world), kRounding_m);
   Course course = course_along(path, config, Turning::kInAir);
-  const auto half = static_cast<std::ptrdiff_t>(config.smoothing_s / kPasses / kStep_s / 2.0);
+  const auto half = static_cast<std::ptrdiff_t>(config.smoothing_s / kPasses / Course::kStep_s / 2.0);
   // The ends are held as long as the smoothing reaches, so that the flight ends where its path does.
   const std::vector<Eigen::Vector3d> position = box_smoothed(std::move(course.position), half, kPasses);
   const std::vector<double> yaw = box_smoothed(std::move(course.yaw), half, kPasses);
@@ -59,7 +58,8 @@ FlightReference::FlightReference(const MotionConfig& config, const World& world)
     state.position = position[i] + above_m * Eigen::Vector3d::UnitZ();
     state.velocity = velocity[i];
     if (i > 0 && i + 1 < count) {
-      state.acceleration = (position[i + 1] - 2.0 * position[i] + position[i - 1]) / (kStep_s * kStep_s);
+      state.acceleration =
+          (position[i + 1] - 2.0 * position[i] + position[i - 1]) / (Course::kStep_s * Course::kStep_s);
     }
     state.attitude = attitude_for(state.acceleration, yaw[i]);
   }
@@ -73,10 +73,10 @@ FlightReference::FlightReference(const MotionConfig& config, const World& world)
   }
 }
 
-double FlightReference::duration_s() const { return static_cast<double>(states_.size() - 1) * kStep_s; }
+double FlightReference::duration_s() const { return static_cast<double>(states_.size() - 1) * Course::kStep_s; }
 
 FlightState FlightReference::at(double time_s) const {
-  const double place = std::clamp(time_s / kStep_s, 0.0, static_cast<double>(states_.size() - 1));
+  const double place = std::clamp(time_s / Course::kStep_s, 0.0, static_cast<double>(states_.size() - 1));
   const auto i = std::min(static_cast<std::size_t>(place), states_.size() - 2);
   return blend(states_[i], states_[i + 1], place - static_cast<double>(i));
 }
@@ -84,7 +84,7 @@ FlightState FlightReference::at(double time_s) const {
 Trajectory FlightReference::trajectory() const {
   std::vector<PoseTrack::Stamped> poses;
   for (std::size_t i = 0; i < states_.size(); ++i) {
-    poses.push_back({static_cast<std::int64_t>(i) * static_cast<std::int64_t>(kStep_s * 1e9),
+    poses.push_back({static_cast<std::int64_t>(i) * static_cast<std::int64_t>(Course::kStep_s * 1e9),
                      {states_[i].attitude, states_[i].position}});
   }
   return Trajectory(poses);

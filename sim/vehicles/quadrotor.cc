@@ -11,7 +11,6 @@
 namespace plumbline {
 namespace {
 
-constexpr double kStep_s = RotorCraft::kStep_s;
 static_assert(RotorCraft::kStep_s == BandLimiter::kStep_s);
 
 Trajectory fly(const MotionConfig& config, const World& world, const RayScene& /*rays*/, std::uint64_t seed) {
@@ -24,10 +23,10 @@ Trajectory fly(const MotionConfig& config, const World& world, const RayScene& /
   Wind wind(config.wind_mps, seed);
   BandLimiter motion(-BandLimiter::kLead_ns);
   constexpr std::int64_t kLead = BandLimiter::kLead_ns / BandLimiter::kStep_ns;
-  const auto hover = static_cast<std::int64_t>(kHover_s / kStep_s);
-  const auto steps = static_cast<std::int64_t>(reference.duration_s() / kStep_s) + hover;
+  const auto hover = static_cast<std::int64_t>(kHover_s / RotorCraft::kStep_s);
+  const auto steps = static_cast<std::int64_t>(reference.duration_s() / RotorCraft::kStep_s) + hover;
   for (std::int64_t i = -hover; i <= steps; ++i) {
-    const double time_s = static_cast<double>(i) * kStep_s;
+    const double time_s = static_cast<double>(i) * RotorCraft::kStep_s;
     const FlightState now = craft.state();
     const FlightState wanted = reference.at(time_s);
     if ((now.position - wanted.position).norm() > kOff_m) {

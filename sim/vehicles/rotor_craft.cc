@@ -9,11 +9,11 @@
 #include <string>
 
 #include "estimator/geometry/so3.h"
+#include "sim/constants.h"
 
 namespace plumbline {
 namespace {
 
-constexpr double kGravity = 9.81;
 // Ahead, left and drag torque of each rotor.
 constexpr double kAhead[4] = {1.0, 1.0, -1.0, -1.0};
 constexpr double kLeft[4] = {1.0, -1.0, -1.0, 1.0};

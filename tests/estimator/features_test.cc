@@ -13,8 +13,7 @@ namespace plumbline {
 namespace {
 
 using testing::BoxWorld;
-
-constexpr double kRangeSigma = 0.012;
+using testing::kRangeSigma;
 
 FeatureCloud features_at(const BoxWorld& world, const Pose& pose, std::uint64_t seed = 1) {
   Calibration calibration;
@@ -27,7 +26,7 @@ FeatureCloud features_at(const BoxWorld& world, const Pose& pose, std::uint64_t 
   return extract_features(scan, deskew(scan, rest, {}, 0), calibration);
 }
 
-Pose at(double x, double y, double z) { return {Eigen::Quaterniond::Identity(), {x, y, z}}; }
+Pose standing_at(double x, double y, double z) { return {Eigen::Quaterniond::Identity(), {x, y, z}}; }
 
 TEST(Features, SmoothWallsWithNoiseHaveNoEdges) {
   BoxWorld two_walls;
@@ -36,10 +35,10 @@ TEST(Features, SmoothWallsWithNoiseHaveNoEdges) {
   tube.tube_radius_m = 2.25;
   int edges = 0;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    edges += static_cast<int>(features_at(two_walls, at(0.0, 0.0, 0.0), seed).edges.size());
-    edges += static_cast<int>(features_at(two_walls, at(0.0, 1.2, 0.0), seed).edges.size());
-    edges += static_cast<int>(features_at(tube, at(0.0, 0.0, 0.0), seed).edges.size());
-    edges += static_cast<int>(features_at(tube, at(0.0, 0.8, 0.2), seed).edges.size());
+    edges += static_cast<int>(features_at(two_walls, standing_at(0.0, 0.0, 0.0), seed).edges.size());
+    edges += static_cast<int>(features_at(two_walls, standing_at(0.0, 1.2, 0.0), seed).edges.size());
+    edges += static_cast<int>(features_at(tube, standing_at(0.0, 0.0, 0.0), seed).edges.size());
+    edges += static_cast<int>(features_at(tube, standing_at(0.0, 0.8, 0.2), seed).edges.size());
   }
   EXPECT_LE(edges, 2) << "of 570,000 returns";
 }
@@ -47,7 +46,7 @@ TEST(Features, SmoothWallsWithNoiseHaveNoEdges) {
 TEST(Features, FindsTheCornersOfARoomToAFractionOfTheNoise) {
   BoxWorld room;
   room.boxes.push_back({{-3.0, -2.0, -50.0}, {4.0, 2.5, 50.0}, true});  // so tall that only the four corners are edges
-  const FeatureCloud cloud = features_at(room, at(0.0, 0.0, 0.0));
+  const FeatureCloud cloud = features_at(room, standing_at(0.0, 0.0, 0.0));
   EXPECT_GE(cloud.edges.size(), 60U);  // 4 corners x 16 rings
   double sum = 0.0;
   for (const FeaturePoint& e : cloud.edges) {
@@ -63,7 +62,7 @@ TEST(Features, OfAnOcclusionOnlyTheNearSideIsAnEdge) {
   world.boxes.push_back({{-8.0, -8.0, -50.0}, {8.0, 8.0, 50.0}, true});
   world.boxes.push_back(
       {{4.0, -0.5, -50.0}, {4.3, 0.5, 50.0}, false});  // a pillar whose shadow falls on the wall x = 8
-  const FeatureCloud cloud = features_at(world, at(0.0, 0.0, 0.0));
+  const FeatureCloud cloud = features_at(world, standing_at(0.0, 0.0, 0.0));
   int near_side = 0;
   for (const FeaturePoint& e : cloud.edges) {
     const bool ahead = e.position.x() > 3.0F && std::abs(e.position.y()) < 2.0F;
@@ -76,7 +75,7 @@ TEST(Features, OfAnOcclusionOnlyTheNearSideIsAnEdge) {
 
 TEST(Features, PlanesLieOnTheSurfacesAndFaceTheSensor) {
   const BoxWorld room = testing::furnished_room();
-  const Pose pose = at(0.5, -0.5, 0.0);
+  const Pose pose = standing_at(0.5, -0.5, 0.0);
   const FeatureCloud cloud = features_at(room, pose);
   EXPECT_GT(cloud.planes.size(), 1200U);
   int tilted = 0;
@@ -94,7 +93,7 @@ TEST(Features, PlanesLieOnTheSurfacesAndFaceTheSensor) {
 TEST(Features, GrazedSurfacesGiveNoPlanes) {
   BoxWorld world;
   world.boxes.push_back({{-200.0, -200.0, -1.2}, {200.0, 200.0, 60.0}, true});
-  for (const FeaturePoint& p : features_at(world, at(0.0, 0.0, 0.0)).planes) {
+  for (const FeaturePoint& p : features_at(world, standing_at(0.0, 0.0, 0.0)).planes) {
     EXPECT_GT(std::abs(p.normal.dot(p.position.normalized())), 0.15F);  // 10 degrees, less the noise of normals
   }
 }

@@ -242,16 +242,16 @@ TEST(InertialFilter, RenewingTheMapMovesNothingInIt) {
 TEST(InertialFilter, TheHeadingFollowsWhatTheStartDidNotKnowOfTheBias) {
   // Watched for a second with a bias that was wrong by 0.004 rad/s, the heading is wrong by 0.004 rad. At rest in a
   // known place the bias shows, and the heading with it.
-  constexpr double kBias = 0.004;
+  constexpr double kUnknownBias = 0.004;
   InitialState start;
   start.tilt_sigma = 1e-3;
-  start.gyro_bias_covariance.diagonal().setConstant(kBias * kBias);
+  start.gyro_bias_covariance.diagonal().setConstant(kUnknownBias * kUnknownBias);
   start.velocity_sigma = 0.01;
   start.watched_s = 1.0;
-  start.state.world_from_body.rotation = exp_so3({0.0, 0.0, kBias});
+  start.state.world_from_body.rotation = exp_so3({0.0, 0.0, kUnknownBias});
   InertialFilter filter(start, ImuNoise{}, true);
   ImuSample sample;
-  sample.angular_rate = {0.0, 0.0, kBias};
+  sample.angular_rate = {0.0, 0.0, kUnknownBias};
   sample.specific_force = {0.0, 0.0, kStandardGravity};
   for (int k = 1; k <= 400; ++k) {
     const ImuSample previous = sample;
@@ -263,9 +263,9 @@ TEST(InertialFilter, TheHeadingFollowsWhatTheStartDidNotKnowOfTheBias) {
     filter.update_keyframe_motion(at_rest, filter.world_from_keyframe().inverse() * filter.state().world_from_body,
                                   1.0);
   }
-  EXPECT_NEAR(filter.state().gyro_bias.z(), kBias, 0.1 * kBias);
+  EXPECT_NEAR(filter.state().gyro_bias.z(), kUnknownBias, 0.1 * kUnknownBias);
   // The key-frame was made at the start, and its heading is corrected, too.
-  EXPECT_LT(log_so3(filter.state().world_from_body.rotation).norm(), 0.2 * kBias);
+  EXPECT_LT(log_so3(filter.state().world_from_body.rotation).norm(), 0.2 * kUnknownBias);
 }
 
 TEST(InertialFilter, TheMotionSinceThePastPoseStartsCertainAndGrows) {

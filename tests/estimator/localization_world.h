@@ -12,7 +12,6 @@
 /// Runs of the localization without a simulator: closed-form scans, and an odometry whose drift is given.
 namespace plumbline::testing {
 
-inline constexpr double kRangeSigma = 0.012;
 inline constexpr std::int64_t kImuPeriod_ns = 5'000'000;
 inline constexpr int kSamplesPerScan = 20;
 

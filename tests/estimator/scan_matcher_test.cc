@@ -11,8 +11,8 @@ namespace plumbline {
 namespace {
 
 using testing::BoxWorld;
+using testing::kRangeSigma;
 
-constexpr double kRangeSigma = 0.012;
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 Calibration calibration() {

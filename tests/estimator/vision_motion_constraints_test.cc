@@ -14,8 +14,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-const CameraIntrinsics kCamera{640, 360, 474.0, 470.0, 319.5, 179.5};
-const Pose kBodyFromCamera{body_from_optical_rotation() * exp_so3({0.02, -0.03, 0.01}), Vector3d(0.12, -0.03, 0.05)};
+const CameraIntrinsics kUnevenCamera{640, 360, 474.0, 470.0, 319.5, 179.5};
+const Pose kBodyFromTilted{body_from_optical_rotation() * exp_so3({0.02, -0.03, 0.01}), Vector3d(0.12, -0.03, 0.05)};
 
 std::vector<Pose> poses() {
   return {Pose{},
@@ -26,7 +26,7 @@ std::vector<Pose> poses() {
 
 FeatureSighting sighting(InverseDepth depth) {
   FeatureSighting feature;
-  feature.keyframe_ray = ray_through(kCamera, {420.0, 80.0});
+  feature.keyframe_ray = ray_through(kUnevenCamera, {420.0, 80.0});
   feature.pixel = {405.0, 95.0};
   feature.pixel_sigma = 0.3;
   feature.depth = depth;
@@ -37,12 +37,12 @@ TEST(ReprojectionRows, JacobianMatchesCentralDifferencesForFixedWhitening) {
   for (const InverseDepth& depth : {InverseDepth{0.2, 0.001}, InverseDepth{0.5, 0.1}, InverseDepth{0.0, 0.3}}) {
     const FeatureSighting feature = sighting(depth);
     for (const Pose& pose : poses()) {
-      const CameraMotion motion = camera_motion(pose, kBodyFromCamera);
-      const Eigen::Matrix2d whitening = reprojection_whitening(motion, kCamera, feature);
-      const PixelRows rows = reprojection_rows(motion, kCamera, feature, whitening);
+      const CameraMotion motion = camera_motion(pose, kBodyFromTilted);
+      const Eigen::Matrix2d whitening = reprojection_whitening(motion, kUnevenCamera, feature);
+      const PixelRows rows = reprojection_rows(motion, kUnevenCamera, feature, whitening);
       for (int i = 0; i < 2; ++i) {
         const auto residual = [&](const Pose& p) {
-          return reprojection_rows(camera_motion(p, kBodyFromCamera), kCamera, feature, whitening).residual[i];
+          return reprojection_rows(camera_motion(p, kBodyFromTilted), kUnevenCamera, feature, whitening).residual[i];
         };
         testing::expect_jacobian_near(residual, pose, rows.jacobian.row(i));
       }
@@ -53,9 +53,9 @@ TEST(ReprojectionRows, JacobianMatchesCentralDifferencesForFixedWhitening) {
 TEST(EpipolarRow, JacobianMatchesCentralDifferences) {
   const FeatureSighting feature = sighting({});
   for (const Pose& pose : poses()) {
-    const PixelRow row = epipolar_row(camera_motion(pose, kBodyFromCamera), kCamera, feature);
+    const PixelRow row = epipolar_row(camera_motion(pose, kBodyFromTilted), kUnevenCamera, feature);
     const auto residual = [&](const Pose& p) {
-      return epipolar_row(camera_motion(p, kBodyFromCamera), kCamera, feature).residual;
+      return epipolar_row(camera_motion(p, kBodyFromTilted), kUnevenCamera, feature).residual;
     };
     // Within micrometres of no motion the row bends over its 1 mm floor: differences with a step of 1e-5 see
     // (1e-5 / 1e-3)^2 of that.
@@ -64,7 +64,7 @@ TEST(EpipolarRow, JacobianMatchesCentralDifferences) {
 }
 
 TEST(EpipolarRow, IsFiniteAndSilentWithoutMotion) {
-  const PixelRow row = epipolar_row(camera_motion(Pose{}, kBodyFromCamera), kCamera, sighting({}));
+  const PixelRow row = epipolar_row(camera_motion(Pose{}, kBodyFromTilted), kUnevenCamera, sighting({}));
   EXPECT_NEAR(row.residual, 0.0, 1e-9);  // rounding of the extrinsics' inverse over the 1 mm floor
   EXPECT_TRUE(row.jacobian.allFinite());
 }
@@ -76,7 +76,7 @@ TEST(EpipolarRow, IsThePixelDistanceFromTheEpipolarLine) {
   FeatureSighting feature = sighting({});
   feature.pixel = {380.0, 83.0};
   feature.pixel_sigma = 1.0;
-  const PixelRow row = epipolar_row(camera_motion(keyframe_from_body, body_from_camera), kCamera, feature);
+  const PixelRow row = epipolar_row(camera_motion(keyframe_from_body, body_from_camera), kUnevenCamera, feature);
   EXPECT_NEAR(std::abs(row.residual), 3.0, 1e-4);  // the floor of 1 mm beside 400 mm: 3e-6
 }
 
@@ -84,17 +84,17 @@ TEST(ReprojectionRows, DepthUncertaintyActsAlongTheEpipolarLineOnly) {
   const Pose body_from_camera{body_from_optical_rotation(), Vector3d::Zero()};
   const Pose keyframe_from_body{Eigen::Quaterniond::Identity(), Vector3d(0.0, -0.4, 0.0)};  // lines are image rows
   const CameraMotion motion = camera_motion(keyframe_from_body, body_from_camera);
-  const Eigen::Matrix2d whitening = reprojection_whitening(motion, kCamera, sighting({0.2, 0.05}));
+  const Eigen::Matrix2d whitening = reprojection_whitening(motion, kUnevenCamera, sighting({0.2, 0.05}));
   EXPECT_NEAR(whitening(1, 1), 1.0 / 0.3, 1e-9);
   EXPECT_NEAR(whitening(0, 0), 1.0 / std::hypot(0.3, 474.0 * 0.4 * 0.05), 1e-9);
 }
 
 TEST(ReprojectionRows, APointBehindTheCameraIsAnOutlierWithoutGradient) {
   const Pose keyframe_from_body{Eigen::Quaterniond::Identity(), Vector3d(10.0, 0.0, 0.0)};
-  const CameraMotion motion = camera_motion(keyframe_from_body, kBodyFromCamera);
+  const CameraMotion motion = camera_motion(keyframe_from_body, kBodyFromTilted);
   const FeatureSighting feature = sighting({0.2, 0.001});
-  const Eigen::Matrix2d whitening = reprojection_whitening(motion, kCamera, feature);
-  const PixelRows rows = reprojection_rows(motion, kCamera, feature, whitening);
+  const Eigen::Matrix2d whitening = reprojection_whitening(motion, kUnevenCamera, feature);
+  const PixelRows rows = reprojection_rows(motion, kUnevenCamera, feature, whitening);
   EXPECT_TRUE(rows.residual.allFinite());
   EXPECT_GT(rows.residual.norm(), 100.0);
   EXPECT_TRUE(rows.jacobian.isZero());
@@ -102,15 +102,15 @@ TEST(ReprojectionRows, APointBehindTheCameraIsAnOutlierWithoutGradient) {
 
 /// Features drawn over the view at 3-15 m with pixel noise; two thirds know their depth to 2 cm, the rest not at all.
 std::vector<FeatureSighting> noisy_sightings(const Pose& keyframe_from_body, RandomStream& random) {
-  const CameraMotion motion = camera_motion(keyframe_from_body, kBodyFromCamera);
+  const CameraMotion motion = camera_motion(keyframe_from_body, kBodyFromTilted);
   std::vector<FeatureSighting> features;
   for (int i = 0; i < 120; ++i) {
     FeatureSighting f;
-    f.keyframe_ray = ray_through(kCamera, {random.uniform(40, 600), random.uniform(40, 320)});
+    f.keyframe_ray = ray_through(kUnevenCamera, {random.uniform(40, 600), random.uniform(40, 320)});
     const double depth = random.uniform(3.0, 15.0);
     const Vector3d point =
         motion.camera_from_keyframe_rotation * (depth * f.keyframe_ray) + motion.camera_from_keyframe_translation;
-    f.pixel = project(kCamera, point) + f.pixel_sigma * Eigen::Vector2d(random.gaussian(), random.gaussian());
+    f.pixel = project(kUnevenCamera, point) + f.pixel_sigma * Eigen::Vector2d(random.gaussian(), random.gaussian());
     if (i % 3 != 0) f.depth = {1.0 / depth + 0.02 / (depth * depth) * random.gaussian(), 0.02 / (depth * depth)};
     features.push_back(f);
   }
@@ -118,15 +118,16 @@ std::vector<FeatureSighting> noisy_sightings(const Pose& keyframe_from_body, Ran
 }
 
 SolveResult solve_sightings(const std::vector<FeatureSighting>& features, const Pose& guess) {
-  const CameraMotion at_guess = camera_motion(guess, kBodyFromCamera);
+  const CameraMotion at_guess = camera_motion(guess, kBodyFromTilted);
   const auto linearize = [&](const Pose& pose, ResidualRows& rows) {
-    const CameraMotion motion = camera_motion(pose, kBodyFromCamera);
+    const CameraMotion motion = camera_motion(pose, kBodyFromTilted);
     for (const FeatureSighting& f : features) {
       if (!f.depth.known()) {
-        const PixelRow row = epipolar_row(motion, kCamera, f);
+        const PixelRow row = epipolar_row(motion, kUnevenCamera, f);
         rows.add(row.residual, row.jacobian);
       } else {
-        const PixelRows pair = reprojection_rows(motion, kCamera, f, reprojection_whitening(at_guess, kCamera, f));
+        const PixelRows pair =
+            reprojection_rows(motion, kUnevenCamera, f, reprojection_whitening(at_guess, kUnevenCamera, f));
         rows.add(pair.residual[0], pair.jacobian.row(0), pair.residual[1], pair.jacobian.row(1));
       }
     }

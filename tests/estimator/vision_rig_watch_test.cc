@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-const CameraIntrinsics kCamera{752, 480, 481.0, 481.0, 375.5, 239.5};
+const CameraIntrinsics kRigCamera{752, 480, 481.0, 481.0, 375.5, 239.5};
 
 /// A camera that looks along the body's x axis, a metre above its origin.
 CameraMotion moved(double yaw, const Vector3d& step_m) {
@@ -23,7 +23,7 @@ CameraMotion moved(double yaw, const Vector3d& step_m) {
 
 FeatureSighting seen_at(const Vector2d& reference, const Vector2d& now) {
   FeatureSighting sighting;
-  sighting.keyframe_ray = ray_through(kCamera, reference);
+  sighting.keyframe_ray = ray_through(kRigCamera, reference);
   sighting.pixel = now;
   sighting.pixel_sigma = 0.3;
   sighting.depth = {0.0, 0.3};  // unknown, far away
@@ -32,8 +32,8 @@ FeatureSighting seen_at(const Vector2d& reference, const Vector2d& now) {
 
 /// Where the camera sees a point now that the reference saw at a pixel and a depth.
 Vector2d follows(const CameraMotion& motion, const Vector2d& reference, double depth_m) {
-  return project(kCamera, motion.camera_from_keyframe_rotation * ray_through(kCamera, reference) +
-                              motion.camera_from_keyframe_translation / depth_m);
+  return project(kRigCamera, motion.camera_from_keyframe_rotation * ray_through(kRigCamera, reference) +
+                                 motion.camera_from_keyframe_translation / depth_m);
 }
 
 // A tenth of a second of a motorway's bend: 2 m ahead, 2 mrad, one pixel.
@@ -43,7 +43,7 @@ const Vector2d kBonnet(380.0, 430.0);
 int images_until_found(const CameraMotion& motion, const FeatureSighting& sighting) {
   RidingEvidence evidence;
   for (int k = 1; k <= 100; ++k) {
-    evidence.add(evidence_of_riding(motion, kCamera, sighting));
+    evidence.add(evidence_of_riding(motion, kRigCamera, sighting));
     if (evidence.rides()) return k;
   }
   return 0;
@@ -79,8 +79,8 @@ TEST(RigWatch, APointThatIsCircledDoesNotRide) {
 }
 
 TEST(RigWatch, StraightAheadAndAtRestNothingIsSaid) {
-  EXPECT_EQ(evidence_of_riding(moved(0.0, {2.0, 0.0, 0.0}), kCamera, seen_at(kBonnet, kBonnet)), 0.0);
-  EXPECT_EQ(evidence_of_riding(moved(0.0, Vector3d::Zero()), kCamera, seen_at(kBonnet, kBonnet)), 0.0);
+  EXPECT_EQ(evidence_of_riding(moved(0.0, {2.0, 0.0, 0.0}), kRigCamera, seen_at(kBonnet, kBonnet)), 0.0);
+  EXPECT_EQ(evidence_of_riding(moved(0.0, Vector3d::Zero()), kRigCamera, seen_at(kBonnet, kBonnet)), 0.0);
 }
 
 TEST(RigWatch, PlacesAreForgotten) {

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <vector>
 
+#include "sim/constants.h"
 #include "tests/scenarios/body_trajectory.h"
 #include "tests/scenarios/temporary_directory.h"
 
 namespace plumbline {
 namespace {
 
-constexpr double kDegree = M_PI / 180.0;
 constexpr double kStep_s = 0.005;
 
 Trajectory motion_of(const std::string& name) {

@@ -3,17 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "scenarios/catalogue.h"
 #include "sensors/lidar.h"
+#include "sim/constants.h"
 #include "tools/verify/lidar_firing_check.h"
 #include "tools/verify/lidar_stand.h"
 
 namespace plumbline {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 TEST(LidarDevices, FireAtTheTimesAndAnglesOfTheirDataSheets) {
   std::vector<std::string> checked;

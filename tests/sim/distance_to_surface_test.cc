@@ -12,14 +12,14 @@
 namespace plumbline {
 namespace {
 
-World world_of(const std::string& geoms) {
+World world_around(const std::string& geoms) {
   SceneDescription scene;
   scene.mjcf = "<mujoco><worldbody>" + geoms + "</worldbody></mujoco>";
   return World::from_scene(scene, 1);
 }
 
 TEST(DistanceToSurface, IsThatOfTheNearestSurface) {
-  const World world = world_of(R"(<geom type="box" size="1 1 1"/><geom type="sphere" size="1" pos="10 0 0"/>
+  const World world = world_around(R"(<geom type="box" size="1 1 1"/><geom type="sphere" size="1" pos="10 0 0"/>
       <geom type="capsule" size="0.5 1" pos="20 0 0"/><geom type="cylinder" size="1 2" pos="30 0 0"/>
       <geom type="ellipsoid" size="1 2 3" pos="40 0 0"/><geom type="plane" size="1 1 1" pos="50 0 0"/>
       <geom type="plane" size="0 0 1" pos="0 0 -20"/>)");
@@ -48,7 +48,7 @@ TEST(DistanceToSurface, IsThatOfTheNearestSurface) {
 }
 
 TEST(DistanceToSurface, OfAnEllipsoidIsThatOfItsNearestSample) {
-  const World world = world_of(R"(<geom type="ellipsoid" size="0.5 1 2"/>)");
+  const World world = world_around(R"(<geom type="ellipsoid" size="0.5 1 2"/>)");
   const RayScene scene(world);
   RandomStream stream(8, "ellipsoid");
   for (int i = 0; i < 20; ++i) {
@@ -69,7 +69,7 @@ TEST(DistanceToSurface, OfAnEllipsoidIsThatOfItsNearestSample) {
 }
 
 TEST(DistanceToSurface, WithNothingAroundIsTheLimit) {
-  const World world = world_of("");
+  const World world = world_around("");
   EXPECT_EQ(RayScene(world).distance_to_surface({0, 0, 0}, 2.0), 2.0);
 }
 
@@ -82,10 +82,10 @@ TEST(DistanceToSurface, OfManyIsTheLeastOfEachAlone) {
     for (int axis = 0; axis < 3; ++axis) place += std::to_string(stream.uniform(-5.0, 5.0)) + " ";
     const std::string geom = std::string("<geom type=\"") + (i % 2 == 0 ? "box" : "capsule") +
                              "\" size=\"0.2 0.3 0.4\" euler=\"" + place + "\" pos=\"" + place + "\"/>";
-    alone.emplace_back(world_of(geom));
+    alone.emplace_back(world_around(geom));
     geoms += geom;
   }
-  const World world = world_of(geoms);
+  const World world = world_around(geoms);
   const RayScene together(world);
   for (int i = 0; i < 500; ++i) {
     const Eigen::Vector3d point(stream.uniform(-6, 6), stream.uniform(-6, 6), stream.uniform(-6, 6));

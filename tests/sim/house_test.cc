@@ -7,6 +7,7 @@
 
 #include "sim/ray_scene.h"
 #include "sim/scene_library.h"
+#include "sim/scenes/routes.h"
 #include "sim/world.h"
 
 namespace plumbline {
@@ -21,12 +22,6 @@ const Route& route_of(const World& world, const std::string& name) {
     if (route.name == name) return route;
   }
   throw std::invalid_argument("no route " + name);
-}
-
-double length_of(const Route& route) {
-  double length = route.closed ? (route.points.front() - route.points.back()).norm() : 0.0;
-  for (std::size_t i = 1; i < route.points.size(); ++i) length += (route.points[i] - route.points[i - 1]).norm();
-  return length;
 }
 
 double floor_below(const RayScene& rays, const Eigen::Vector3d& place) {

@@ -1,4 +1,5 @@
 #include "sim/motion.h"
+#include "sim/constants.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,8 +20,6 @@ using testing::duration_s;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 using testing::vehicle_world;
-
-constexpr double kDegree = M_PI / 180.0;
 
 Trajectory carried(const MotionConfig& config, const World& world) {
   return make_trajectory(config, world, RayScene(world), 1);

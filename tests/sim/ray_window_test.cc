@@ -39,7 +39,7 @@ World long_world() {
   return World::from_scene(scene, 1);
 }
 
-Eigen::Vector3d random_direction(RandomStream& stream) {
+Eigen::Vector3d drawn_direction(RandomStream& stream) {
   return Eigen::Vector3d(stream.gaussian(), stream.gaussian(), 0.4 * stream.gaussian()).normalized();
 }
 
@@ -54,7 +54,7 @@ TEST(RayWindow, SeesAllWithinItsReachAnywhereInALargeWorld) {
     const RayWindow window = rays.window(place, kReach_m);
     for (int i = 0; i < 300; ++i) {
       const Eigen::Vector3d origin = place + RayWindow::kSlack_m * Eigen::Vector3d(stream.uniform(-0.9, 0.9), 0.2, 0.1);
-      const Eigen::Vector3d direction = random_direction(stream);
+      const Eigen::Vector3d direction = drawn_direction(stream);
       int geom = -1;
       const double range =
           mj_ray(&world.model(), &world.data(), origin.data(), direction.data(), nullptr, 1, -1, &geom);
@@ -90,7 +90,7 @@ TEST(RayWindow, AnswersDoNotDependOnWhatWasAskedBefore) {
     RandomStream stream(3, "rays");
     std::vector<double> all;
     for (int i = 0; i < 500; ++i) {
-      all.push_back(window.cast({x, 0, 3}, random_direction(stream), 0.0, kReach_m, 0.0).range_m);
+      all.push_back(window.cast({x, 0, 3}, drawn_direction(stream), 0.0, kReach_m, 0.0).range_m);
     }
     return all;
   };

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/constants.h"
 #include "sim/ray_scene.h"
 #include "sim/scene_library.h"
 #include "sim/world.h"
@@ -20,8 +21,7 @@ using test::route_of;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-constexpr double kDegree = M_PI / 180.0;
-constexpr double kLidarReach_m = 100.0;
+constexpr double kTunnelReach_m = 100.0;
 constexpr double kLidarHeight_m = 1.5;
 
 World make_tunnel(const SceneValues& values, std::uint64_t seed = 1) {
@@ -52,11 +52,11 @@ std::vector<Eigen::Vector3d> vlp16_directions() {
 /// Of the returns within 100 m, the share from surfaces whose normal is within 60 degrees of the x axis.
 double axis_facing_share(const RayScene& rays, double x) {
   const Eigen::Vector3d place(x, 0.0, kLidarHeight_m);
-  const RayWindow window = rays.window(place, kLidarReach_m);
+  const RayWindow window = rays.window(place, kTunnelReach_m);
   int returns = 0;
   int facing = 0;
   for (const Eigen::Vector3d& direction : vlp16_directions()) {
-    const RayHit hit = window.cast(place, direction, 0.0, kLidarReach_m, 0.0);
+    const RayHit hit = window.cast(place, direction, 0.0, kTunnelReach_m, 0.0);
     if (!hit.hit) continue;
     ++returns;
     if (std::abs(hit.normal_in_world.x()) > 0.5F) ++facing;

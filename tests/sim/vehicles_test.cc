@@ -1,3 +1,4 @@
+#include "sim/constants.h"
 #include "sim/vehicles/vehicle.h"
 
 #include <gmock/gmock.h>
@@ -21,7 +22,6 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 using testing::vehicle_world;
 
-constexpr double kDegree = M_PI / 180.0;
 constexpr double kStep_s = 0.005;
 
 Trajectory drive(const MotionConfig& config, const World& world, std::uint64_t seed = 1) {

@@ -9,6 +9,8 @@
 
 namespace plumbline::testing {
 
+inline constexpr double kRangeSigma = 0.012;  ///< of the scans below, unless a test is about it [m]
+
 /// An axis-aligned box. A hollow one is a room: rays stop at its far side.
 struct Box {
   Eigen::Vector3d low = Eigen::Vector3d::Zero();

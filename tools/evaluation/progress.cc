@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::int64_t kWindowNs = 5'000'000'000;
 constexpr double kLeastTravel = 1.0;     // [m] in a window
-constexpr double kLeastDistance = 1e-3;  // [m] of the whole run
+constexpr double kLeastTravel_m = 1e-3;  // [m] of the whole run
 
 /// Running sums up to each pair, so that any window is a difference.
 struct Travel {
@@ -39,7 +39,7 @@ ProgressRatio progress_ratio(const std::vector<PosePair>& aligned_pairs) {
   ProgressRatio result;
   if (aligned_pairs.empty()) return result;
   const std::vector<Travel> travel = running_travel(aligned_pairs);
-  if (travel.back().truth_m > kLeastDistance) result.whole = ratio(travel.front(), travel.back());
+  if (travel.back().truth_m > kLeastTravel_m) result.whole = ratio(travel.front(), travel.back());
 
   std::size_t end = 0;
   for (std::size_t start = 0; start < travel.size(); ++start) {

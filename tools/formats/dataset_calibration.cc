@@ -9,7 +9,7 @@
 namespace plumbline {
 namespace {
 
-constexpr std::uintmax_t kMostBytes = 1'000'000;
+constexpr std::uintmax_t kMostOwnBytes = 1'000'000;
 
 void take_devices(const DatasetSettings& settings, Calibration& calibration) {
   if (!settings.lidar_model.empty()) {
@@ -30,7 +30,7 @@ Calibration complete_calibration(const Calibration& native, const std::filesyste
   const std::filesystem::path own = folder / kDatasetCalibration;
   std::error_code error;
   if (!folder.empty() && std::filesystem::exists(own, error)) {
-    calibration = read_calibration_yaml(read_bounded_file(own, kMostBytes), own.string());
+    calibration = read_calibration_yaml(read_bounded_file(own, kMostOwnBytes), own.string());
   }
   take_devices(settings, calibration);
   if (!settings.calibration.is_map()) return calibration;

@@ -16,7 +16,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "fields are copied as they stand in memory");
 
 // 8 million points; the densest head gives a quarter of a million.
-constexpr std::uintmax_t kMostBytes = std::uintmax_t{128} << 20;
+constexpr std::uintmax_t kMostScanBytes = std::uintmax_t{128} << 20;
 constexpr std::size_t kMostPoints = 8'000'000;
 constexpr float kFurthest_m = 1e4F;
 constexpr std::size_t kBinPointBytes = 16;
@@ -72,7 +72,8 @@ std::vector<LidarPoint> points_of_pcd(const std::filesystem::path& path) {
 }  // namespace
 
 std::vector<LidarPoint> read_kitti_points(const std::filesystem::path& path) {
-  return path.extension() == ".pcd" ? points_of_pcd(path) : points_of_bin(path, read_bounded_file(path, kMostBytes));
+  return path.extension() == ".pcd" ? points_of_pcd(path)
+                                    : points_of_bin(path, read_bounded_file(path, kMostScanBytes));
 }
 
 void drop_unusable(std::vector<LidarPoint>& points) {

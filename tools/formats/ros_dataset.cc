@@ -20,7 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kBagName = "data.bag";
-constexpr double kQuaternionTolerance = 0.01;
 
 using OpenBag = std::function<RosSource(const std::set<std::string>& topics)>;
 
@@ -136,9 +135,9 @@ fs::path bag_in(const fs::path& path) {
   throw InputError(path.string() + ": holds no .bag file");
 }
 
-class BagWriter final : public DatasetWriter {
+class RosDatasetWriter final : public DatasetWriter {
  public:
-  explicit BagWriter(std::unique_ptr<RosSink> sink) : sink_(std::move(sink)) {}
+  explicit RosDatasetWriter(std::unique_ptr<RosSink> sink) : sink_(std::move(sink)) {}
 
   /// Bags keep the order of recording by time alone: messages of one time are recorded a nanosecond apart.
   void write(const SensorMessage& message) override {
@@ -189,11 +188,11 @@ Dataset open_rosbag2(const fs::path& path, const DatasetSettings& settings) {
 }
 
 std::unique_ptr<DatasetWriter> make_rosbag_writer(const fs::path& directory, const Calibration&) {
-  return std::make_unique<BagWriter>(make_rosbag_file(directory / kBagName));
+  return std::make_unique<RosDatasetWriter>(make_rosbag_file(directory / kBagName));
 }
 
 std::unique_ptr<DatasetWriter> make_rosbag2_writer(const fs::path& directory, const Calibration&) {
-  return std::make_unique<BagWriter>(make_rosbag2_file(directory));
+  return std::make_unique<RosDatasetWriter>(make_rosbag2_file(directory));
 }
 
 }  // namespace plumbline

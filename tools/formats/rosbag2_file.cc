@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostFiles = 10'000;
+constexpr std::size_t kMostBagFiles = 10'000;
 constexpr const char* kDatabase = "data_0.db3";
 constexpr const char* kMetadata = "metadata.yaml";
 
@@ -142,7 +142,7 @@ std::vector<fs::path> files_of(const fs::path& path) {
   }
   std::vector<fs::path> files;
   for (const ConfigNode& name : list_of(*names, "relative_file_paths")) {
-    if (files.size() == kMostFiles) throw InputError(names->where + ": more than 10,000 files");
+    if (files.size() == kMostBagFiles) throw InputError(names->where + ": more than 10,000 files");
     files.push_back(listed_file(path, text_of(name, "relative_file_paths")));
   }
   return files;
@@ -168,9 +168,9 @@ class BagReader {
   std::unique_ptr<DatabaseReader> database_;
 };
 
-class BagWriter final : public RosSink {
+class Rosbag2Writer final : public RosSink {
  public:
-  explicit BagWriter(const fs::path& directory)
+  explicit Rosbag2Writer(const fs::path& directory)
       : directory_(directory), database_(directory / kDatabase, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE) {
     database_.execute("PRAGMA synchronous = OFF");  // the folder appears by rename, when all is written
     database_.execute(kSchema);
@@ -254,6 +254,8 @@ RosSource open_rosbag2_file(const fs::path& path, const std::set<std::string>& t
   return [reader = std::make_shared<BagReader>(path, topics)] { return reader->next(); };
 }
 
-std::unique_ptr<RosSink> make_rosbag2_file(const fs::path& directory) { return std::make_unique<BagWriter>(directory); }
+std::unique_ptr<RosSink> make_rosbag2_file(const fs::path& directory) {
+  return std::make_unique<Rosbag2Writer>(directory);
+}
 
 }  // namespace plumbline

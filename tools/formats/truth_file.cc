@@ -8,8 +8,6 @@
 namespace plumbline {
 namespace {
 
-constexpr double kQuaternionTolerance = 0.01;
-
 std::vector<PoseTrack::Stamped> read_euroc_truth(const std::filesystem::path& path) {
   std::vector<PoseTrack::Stamped> truth;
   TextTable table(path, ", \t\r");

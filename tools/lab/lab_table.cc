@@ -11,7 +11,7 @@
 namespace plumbline {
 namespace {
 
-constexpr int kDigits = 9;
+constexpr int kTableDigits = 9;
 constexpr const char* kMitigationsHeader = "mitigation,drift_percent,progress_ratio,degenerate\n";
 constexpr std::size_t kColumns = 1 + 6 + 2 + 2 * kDetectors.size() + 2;
 
@@ -28,7 +28,7 @@ std::string header() {
 
 void append(std::string& text, const std::optional<double>& value, double unit = 1.0) {
   text += ',';
-  if (value) append_general(text, *value * unit, kDigits);
+  if (value) append_general(text, *value * unit, kTableDigits);
 }
 
 /// Cells of a line; an empty one is nothing. @returns fewer than all if one is no number

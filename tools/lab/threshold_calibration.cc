@@ -53,10 +53,10 @@ std::optional<double> number_of(const std::string& text) {
 }
 
 void append_line(std::string& text, const char* key, const std::optional<double>& value) {
-  constexpr int kDigits = 6;
+  constexpr int kCellDigits = 6;
   text += std::string("  ") + key + ": ";
   if (value) {
-    append_general(text, *value, kDigits);
+    append_general(text, *value, kCellDigits);
   } else {
     text += "null";
   }

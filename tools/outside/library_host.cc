@@ -56,7 +56,7 @@ std::string answer_to(Estimator& estimator, const SensorPayload& message) {
   std::visit([&](const auto& payload) { estimator.add(payload); }, message);
   if (!std::holds_alternative<ImuSample>(message)) return std::string(kDone) + '\n';
   const std::vector<Odometry> outputs = estimator.take();
-  if (outputs.empty()) return std::string(kNone) + '\n';
+  if (outputs.empty()) return std::string(kNoPose) + '\n';
   std::string text;
   for (const Odometry& output : outputs) text += odometry_lines(output);
   return text;

@@ -18,7 +18,7 @@ constexpr std::size_t kMostHealth = 1000;
 constexpr std::size_t kMostPoints = 5'000'000;
 constexpr std::size_t kMostReasons = 100;
 constexpr const char* kGreeting = "plumbline-odometry";
-constexpr std::array kModules{Module::kImu, Module::kVision, Module::kLidar};
+constexpr std::array kModuleWords{Module::kImu, Module::kVision, Module::kLidar};
 constexpr std::array kModes{ModuleMode::kSolved, ModuleMode::kPartial, ModuleMode::kBypassed};
 
 void append(std::string& line, double value) { append_exact(line += ' ', value); }
@@ -108,7 +108,7 @@ class Words {
 ModuleHealth health_of(Words& words) {
   ModuleHealth health;
   health.stamp_ns = words.whole();
-  health.module = words.one_of(kModules);
+  health.module = words.one_of(kModuleWords);
   health.mode = words.one_of(kModes);
   health.well_conditioned = static_cast<int>(words.count());
   if (health.well_conditioned > 6) words.fail("at most 6 directions are well conditioned");
@@ -214,10 +214,10 @@ void ClosingLines::add(const std::string& line) {
   Words words(line);
   const std::string_view kind = words.word();
   if (kind == "used") {
-    const Module module = words.one_of(kModules);
+    const Module module = words.one_of(kModuleWords);
     counts[module].used = words.count();
   } else if (kind == "dropped") {
-    auto& dropped = counts[words.one_of(kModules)].dropped;
+    auto& dropped = counts[words.one_of(kModuleWords)].dropped;
     const std::int64_t count = words.count();
     const std::string reason = words.rest();
     if (reason.empty()) words.fail("a reason is missing");

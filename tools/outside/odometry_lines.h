@@ -19,7 +19,7 @@ std::string greeting_line(bool acknowledge);
 /// @returns nothing unless it is such a line of this version; otherwise whether messages are acknowledged
 std::optional<bool> read_greeting(const std::string& line);
 
-constexpr const char* kNone = "none";  ///< no pose for this sample
+constexpr const char* kNoPose = "none";  ///< no pose for this sample
 constexpr const char* kDone = "done";
 
 /// The lines of one output, its pose last, each with its end.

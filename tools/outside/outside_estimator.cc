@@ -99,7 +99,7 @@ class Conversation {
   void read_answer(std::int64_t stamp_ns) {
     for (;;) {
       const std::string line = process_->read_line();
-      if (line == kNone) return;
+      if (line == kNoPose) return;
       if (!lines_.add(line)) continue;
       outputs_.push_back(lines_.take());
       if (outputs_.back().stamp_ns == stamp_ns) return;

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "estimator/imu/initialization.h"
 #include "scenarios/input_error.h"
+#include "sim/constants.h"
 #include "tools/evaluation/pairing.h"
 #include "tools/evaluation/quantile.h"
 #include "tools/formats/dataset.h"
@@ -17,7 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::int64_t kWindow_ns = 1'000'000'000;
 constexpr std::int64_t kSlope_ns = 100'000'000;  // over which the truth's positions tell the velocity
 

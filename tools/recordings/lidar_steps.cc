@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "estimator/estimator.h"
 #include "scenarios/input_error.h"
 #include "scenarios/session.h"
+#include "sim/constants.h"
 #include "tools/evaluation/pairing.h"
 #include "tools/formats/dataset.h"
 #include "tools/formats/kitti_calibration.h"
@@ -20,7 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kStepsFile = "icp_relative_check.txt";
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 struct Step {
   std::int64_t scan = 0;  ///< its number; the step leads to it from the scan before

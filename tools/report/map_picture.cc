@@ -16,7 +16,7 @@ namespace {
 constexpr double kWidth = 1000.0;  // of the drawing; also of the raster, in pixels
 constexpr double kLeastHeight = 90.0;
 constexpr double kMostHeight = 900.0;
-constexpr double kMargin = 0.04;  // of the extent, on each side
+constexpr double kMarginShare = 0.04;  // of the extent, on each side
 constexpr double kScaleBarRoom = 40.0;
 constexpr std::size_t kMaxPathPoints = 1500;
 // Stray returns far away must not shrink the rest: so large a share of the points is left outside on each side.
@@ -96,7 +96,7 @@ struct Frame {
 Frame frame_of(Box box) {
   Frame frame;
   if (box.empty()) box = {Eigen::Vector2d::Constant(-1.0), Eigen::Vector2d::Constant(1.0)};
-  const Eigen::Vector2d pad = Eigen::Vector2d::Constant(kMargin * box.size().maxCoeff() + 0.2);
+  const Eigen::Vector2d pad = Eigen::Vector2d::Constant(kMarginShare * box.size().maxCoeff() + 0.2);
   box.min -= pad;
   box.max += pad;
   const Eigen::Vector2d centre = 0.5 * (box.min + box.max);

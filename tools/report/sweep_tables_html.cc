@@ -13,7 +13,7 @@ namespace plumbline {
 namespace {
 
 constexpr std::size_t kMostFailures = 100;
-constexpr std::size_t kMostRuns = 1000;
+constexpr std::size_t kMostRows = 1000;
 
 std::string shown(const std::optional<double>& value) { return value ? readable_text(*value) : "–"; }
 
@@ -133,7 +133,7 @@ std::string failure_table(const SweepPlan& plan, const std::vector<RunRow>& rows
 }
 
 std::string run_table(const SweepPlan& plan, const std::vector<RunRow>& rows) {
-  const std::size_t count = std::min(rows.size(), kMostRuns);
+  const std::size_t count = std::min(rows.size(), kMostRows);
   std::string html = run_head();
   for (std::size_t i = 0; i < count; ++i) html += run_row(plan, rows[i]);
   return "<details><summary>" + std::to_string(count) + " of " + std::to_string(rows.size()) + " runs</summary>" +

@@ -22,7 +22,7 @@ const RunRow* find_row(const std::vector<RunRow>& rows, const std::string& key) 
   return found != rows.end() && found->run.key == key ? &*found : nullptr;
 }
 
-std::string number(double value) {
+std::string curve_number(double value) {
   std::string text;
   append_general(text, value, 6);
   return text;
@@ -86,9 +86,9 @@ std::string boundary_csv(const SweepPlan& plan, const std::vector<RunRow>& rows)
   for (const BoundaryCurve& curve : boundary_curves(plan)) {
     const BoundarySearch search = replay(curve, rows).search;
     const BoundaryEstimate estimate = search.curve().boundary();
-    text += "\"" + curve.label + "\"," + axis.key + "," + number(value_of_share(axis, estimate.median)) + "," +
-            number(value_of_share(axis, estimate.low)) + "," + number(value_of_share(axis, estimate.high)) + "," +
-            fixed_text(estimate.probability_inside, 4) + "," + fixed_text(estimate.probability_falling, 4) + "," +
+    text += "\"" + curve.label + "\"," + axis.key + "," + curve_number(value_of_share(axis, estimate.median)) + "," +
+            curve_number(value_of_share(axis, estimate.low)) + "," + curve_number(value_of_share(axis, estimate.high)) +
+            "," + fixed_text(estimate.probability_inside, 4) + "," + fixed_text(estimate.probability_falling, 4) + "," +
             std::to_string(search.made()) + "," + std::to_string(curve.positions.size() * curve.keys.front().size()) +
             "\n";
   }

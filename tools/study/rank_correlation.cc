@@ -11,7 +11,7 @@ namespace plumbline {
 namespace {
 
 constexpr std::size_t kLeastPairs = 3;
-constexpr int kResamples = 2000;
+constexpr int kRankResamples = 2000;
 constexpr int kHalvings = 500;
 
 std::vector<double> ranks_of(const std::vector<double>& values) {
@@ -62,7 +62,7 @@ std::optional<Interval> bootstrap_spearman(const std::vector<double>& x, const s
   std::vector<double> resampled;
   std::vector<double> some_x(x.size());
   std::vector<double> some_y(y.size());
-  for (int i = 0; i < kResamples; ++i) {
+  for (int i = 0; i < kRankResamples; ++i) {
     for (std::size_t k = 0; k < x.size(); ++k) {
       const auto pick = static_cast<std::size_t>(draws.integer(0, last));
       some_x[k] = x[pick];

@@ -21,7 +21,7 @@ std::string text_of_file(const std::filesystem::path& path) {
 }
 
 /// Null unless the text is a whole object.
-json parsed(const std::string& text) {
+json parsed_result(const std::string& text) {
   json result = json::parse(text, nullptr, /*allow_exceptions=*/false);
   return result.is_object() ? result : json();
 }
@@ -90,7 +90,7 @@ std::string broken_checks(const json& result) {
 }  // namespace
 
 std::string reason_in_result(const std::string& text) {
-  const json result = parsed(text);
+  const json result = parsed_result(text);
   if (result.is_null()) return {};
   const std::string status = result.value("status", "error");
   if (status == "ok") return {};
@@ -114,7 +114,7 @@ std::optional<StoredRun> outcome_of(const PlannedRun& run, const ChildEnd& end, 
   const bool stopped_by_us = end.kind != ChildEnd::Kind::kExited;
   if (!stopped_by_us && end.code == kExitInterrupted) return std::nullopt;
   const std::string result = text_of_file(run_directory / "result.json");
-  if (!parsed(result).is_null()) {
+  if (!parsed_result(result).is_null()) {
     stored.outcome = "finished";
     stored.result = result;
     stored.reason = reason_in_result(result);
@@ -129,7 +129,7 @@ std::optional<StoredRun> outcome_of(const PlannedRun& run, const ChildEnd& end, 
 std::optional<StoredRun> found_outcome(const PlannedRun& run, const std::string& program,
                                        const std::filesystem::path& run_directory) {
   const std::string text = text_of_file(run_directory / "result.json");
-  const json result = parsed(text);
+  const json result = parsed_result(text);
   if (result.is_null() || !result.contains("provenance")) return std::nullopt;
   const json& provenance = result["provenance"];
   const json commit = provenance.value("git_commit", json());

@@ -65,7 +65,7 @@ std::vector<Values> crossed_rows(const SweepFile& sweep) {
   return rows;
 }
 
-bool before(const Values& a, const Values& b) {
+bool row_before(const Values& a, const Values& b) {
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (a[i].number && b[i].number) {
       if (*a[i].number != *b[i].number) return *a[i].number < *b[i].number;
@@ -124,7 +124,7 @@ SweepPlan make_plan(const SweepFile& sweep) {
                  program_version(),   {}};
   take_defaults(sweep, plan);
   std::vector<Values> rows = crossed_rows(sweep);
-  std::sort(rows.begin(), rows.end(), before);
+  std::sort(rows.begin(), rows.end(), row_before);
   const std::size_t count = rows.size() * plan.estimators.size() * plan.seeds.size();
   if (count > kMostRuns) fail_too_many(sweep);
 

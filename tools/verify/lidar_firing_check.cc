@@ -4,16 +4,14 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "scenarios/catalogue.h"
 #include "sensors/lidar.h"
+#include "sim/constants.h"
 #include "tools/verify/lidar_stand.h"
 
 namespace plumbline {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 Lidar ideal(const std::string& name, double rate_hz = 0.0) {
   LidarModel model = catalogue_lidar(name);

@@ -16,7 +16,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNoNumber = std::numeric_limits<float>::quiet_NaN();
 
 Calibration calibration() {
   Calibration calibration;
@@ -26,9 +26,10 @@ Calibration calibration() {
 
 ImuSample imu_sample() { return {-5, {0.1, -0.0, std::numeric_limits<double>::infinity()}, {1e-310, 2.0, 9.81}}; }
 CameraFrame camera_frame() { return {20, 1, 3, 2, {0, 50, 100, 150, 200, 255}}; }
-DepthFrame depth_frame() { return {30, 2, 2, 1, {kNan, 1.5F}}; }
+DepthFrame depth_frame() { return {30, 2, 2, 1, {kNoNumber, 1.5F}}; }
 LidarScan lidar_scan() {
-  return {40, 50, {{{1.0F, -2.0F, kNan}, -7, 65'535, 0.25F}, {{4.0F, 5.0F, 6.0F}, 2'000'000'000, 3, 1.0F}}, 9, false};
+  return {
+      40, 50, {{{1.0F, -2.0F, kNoNumber}, -7, 65'535, 0.25F}, {{4.0F, 5.0F, 6.0F}, 2'000'000'000, 3, 1.0F}}, 9, false};
 }
 
 std::string whole_stream() {
@@ -80,7 +81,7 @@ TEST(MessageStream, GivesEveryMessageBackBitByBit) {
   EXPECT_EQ(scan.sweep, 9);
   EXPECT_FALSE(scan.ends_sweep);
   ASSERT_EQ(scan.points.size(), 2U);
-  EXPECT_EQ(std::bit_cast<std::uint32_t>(scan.points[0].position.z()), std::bit_cast<std::uint32_t>(kNan));
+  EXPECT_EQ(std::bit_cast<std::uint32_t>(scan.points[0].position.z()), std::bit_cast<std::uint32_t>(kNoNumber));
   EXPECT_EQ(scan.points[0].ring, 65'535);
   EXPECT_EQ(scan.points[1].offset_ns, 2'000'000'000);
   EXPECT_EQ(messages[3].delivery_ns, 60);

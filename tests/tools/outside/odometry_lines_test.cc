@@ -43,7 +43,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-std::string complaint(const std::string& line) {
+std::string line_complaint(const std::string& line) {
   try {
     OdometryLines().add(line);
   } catch (const std::invalid_argument& error) {
@@ -83,17 +83,17 @@ TEST(OdometryLines, APoseIsEnough) {
 }
 
 TEST(OdometryLines, RefuseWhatIsNoAnswer) {
-  EXPECT_THAT(complaint("pose 5 1 2 nan 0 0 0 1"), HasSubstr("found 'nan', expected a finite number"));
-  EXPECT_THAT(complaint("pose 5 1 2 1e999 0 0 0 1"), HasSubstr("found '1e999'"));
-  EXPECT_THAT(complaint("pose 5 1 2 3 0 0 0"), HasSubstr("a field is missing"));
-  EXPECT_THAT(complaint("pose 5 1 2 3 0 0 0 1 9"), HasSubstr("more fields"));
-  EXPECT_THAT(complaint("pose 5.0 1 2 3 0 0 0 1"), HasSubstr("found '5.0', expected a whole number"));
-  EXPECT_THAT(complaint("pose 5 1 2 3 0 0 0 0"), HasSubstr("unit length"));
-  EXPECT_THAT(complaint("pose 5 1 2 1e12 0 0 0 1"), HasSubstr("within 1e9 m"));
-  EXPECT_THAT(complaint("hello world"), HasSubstr("wrote the line 'hello world'"));
-  EXPECT_THAT(complaint(""), HasSubstr("expected a pose"));
-  EXPECT_THAT(complaint("\x01\xff" + std::string(1000, 'x')), HasSubstr("'??xxx"));
-  EXPECT_THAT(complaint("health 5 sonar"), HasSubstr("found the word 'sonar'"));
+  EXPECT_THAT(line_complaint("pose 5 1 2 nan 0 0 0 1"), HasSubstr("found 'nan', expected a finite number"));
+  EXPECT_THAT(line_complaint("pose 5 1 2 1e999 0 0 0 1"), HasSubstr("found '1e999'"));
+  EXPECT_THAT(line_complaint("pose 5 1 2 3 0 0 0"), HasSubstr("a field is missing"));
+  EXPECT_THAT(line_complaint("pose 5 1 2 3 0 0 0 1 9"), HasSubstr("more fields"));
+  EXPECT_THAT(line_complaint("pose 5.0 1 2 3 0 0 0 1"), HasSubstr("found '5.0', expected a whole number"));
+  EXPECT_THAT(line_complaint("pose 5 1 2 3 0 0 0 0"), HasSubstr("unit length"));
+  EXPECT_THAT(line_complaint("pose 5 1 2 1e12 0 0 0 1"), HasSubstr("within 1e9 m"));
+  EXPECT_THAT(line_complaint("hello world"), HasSubstr("wrote the line 'hello world'"));
+  EXPECT_THAT(line_complaint(""), HasSubstr("expected a pose"));
+  EXPECT_THAT(line_complaint("\x01\xff" + std::string(1000, 'x')), HasSubstr("'??xxx"));
+  EXPECT_THAT(line_complaint("health 5 sonar"), HasSubstr("found the word 'sonar'"));
 }
 
 TEST(ClosingLines, CountsAndMap) {

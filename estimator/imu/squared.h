@@ -1,0 +1,7 @@
+#pragma once
+
+namespace plumbline {
+
+constexpr double squared(double x) { return x * x; }
+
+}  // namespace plumbline
