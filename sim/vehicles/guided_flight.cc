@@ -1,5 +1,7 @@
 #include "sim/vehicles/guided_flight.h"
 
+#include "sim/constants.h"
+
 namespace plumbline {
 namespace {
 
@@ -22,7 +24,6 @@ void GuidedFlight::step(const std::optional<FlightState>& believed) {
   const Eigen::Vector3d wind = wind_.next();
   released_ = released_ || (believed && time_s() >= release_s_);
   if (released_) {
-    constexpr double kGravity = 9.81;
     const Wrench hover{design_.mass_kg * kGravity, Eigen::Vector3d::Zero()};
     craft_.step(believed ? track(design_, *believed, wanted(), kGains) : hover, wind);
   }

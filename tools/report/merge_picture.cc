@@ -6,8 +6,8 @@
 namespace plumbline {
 namespace {
 
-constexpr int kWidth = 1400;
-constexpr int kMostHeight = 1400;
+constexpr int kPictureWidth_px = 1400;
+constexpr int kMostHeight_px = 1400;
 constexpr int kMargin = 20;
 const cv::Vec3b kPaper(255, 255, 255);  // blue, green, red
 const cv::Vec3b kOfA(200, 120, 40);
@@ -31,11 +31,11 @@ class View {
       }
     }
     const Eigen::Vector2f size = (extent.high - extent.low).cwiseMax(1.0F);
-    pixels_per_m_ = std::min(static_cast<float>(kWidth - 2 * kMargin) / size.x(),
-                             static_cast<float>(kMostHeight - 2 * kMargin) / size.y());
+    pixels_per_m_ = std::min(static_cast<float>(kPictureWidth_px - 2 * kMargin) / size.x(),
+                             static_cast<float>(kMostHeight_px - 2 * kMargin) / size.y());
     low_ = extent.low;
     const int height = static_cast<int>(size.y() * pixels_per_m_) + 2 * kMargin + 1;
-    image_ = cv::Mat(height, kWidth, CV_8UC3, cv::Scalar(kPaper));
+    image_ = cv::Mat(height, kPictureWidth_px, CV_8UC3, cv::Scalar(kPaper));
     for (const MapPoint& point : a) paint(point, kOfA, kOfA);
     for (const MapPoint& point : b) paint(point, kOfB, kOfBoth);
   }
