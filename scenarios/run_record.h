@@ -37,8 +37,8 @@ struct FlightSample {
   Eigen::Vector3d flown = Eigen::Vector3d::Zero();
   /// Of the newest estimate that the controller had, at that estimate's own stamp, in the mission's frame.
   Eigen::Vector3d estimate_error = Eigen::Vector3d::Zero();
-  double clearance_m =
-      0.0;  ///< from the craft's hull to the nearest surface that stands still, at most kMostClearance_m
+  /// From the craft's hull to the nearest surface that stands still, at most kMostClearance_m.
+  double clearance_m = 0.0;
 };
 inline constexpr double kMostClearance_m = 5.0;
 

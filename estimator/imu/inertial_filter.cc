@@ -185,10 +185,14 @@ void InertialFilter::update(const SolveResult& solved, const Pose& predicted, co
 
   const Eigen::MatrixXd h = directions.transpose() * d_pose_d_error;
   const Eigen::MatrixXd covariance_ht = covariance_ * h.transpose();
-  const auto expected = [&] { return Eigen::MatrixXd(h * covariance_ht + noise).ldlt(); };
-  const double surprise = innovation.dot(expected().solve(innovation)) / n;
-  if (remapping_ && surprise > kLargestInnovation) noise *= surprise / kLargestInnovation;
-  const Eigen::MatrixXd gain = expected().solve(covariance_ht.transpose()).transpose();
+  const Eigen::MatrixXd foreseen = h * covariance_ht;
+  Eigen::LDLT<Eigen::MatrixXd> expected(foreseen + noise);
+  const double surprise = innovation.dot(expected.solve(innovation)) / n;
+  if (remapping_ && surprise > kLargestInnovation) {
+    noise *= surprise / kLargestInnovation;
+    expected.compute(foreseen + noise);
+  }
+  const Eigen::MatrixXd gain = expected.solve(covariance_ht.transpose()).transpose();
   const ErrorState correction = gain * innovation;
   if (!correction.allFinite()) return;
   // Joseph's form keeps the covariance symmetric and positive.

@@ -6,6 +6,7 @@
 #include <functional>
 #include <opencv2/imgproc.hpp>
 
+#include "estimator/geometry/so3.h"
 #include "tests/estimator/vision_scene.h"
 
 namespace plumbline {

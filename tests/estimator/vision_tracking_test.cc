@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 #include "estimator/vision/corner_detector.h"
 #include "estimator/vision/feature_tracker.h"

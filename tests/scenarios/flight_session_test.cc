@@ -7,6 +7,7 @@
 
 #include "scenarios/calibration.h"
 #include "scenarios/session.h"
+#include "tests/scenarios/room.h"
 #include "tests/scenarios/temporary_directory.h"
 
 namespace plumbline {
@@ -14,17 +15,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
-
-constexpr char kRoom[] = R"(<mujoco>
-  <worldbody>
-    <geom type="box" pos="0 0 -0.1" size="8 8 0.1"/>
-    <geom type="box" pos="8 0 2" size="0.1 8 2"/>
-    <geom type="box" pos="-8 0 2" size="0.1 8 2"/>
-    <geom type="box" pos="0 8 2" size="8 0.1 2"/>
-    <geom type="box" pos="0 -8 2" size="8 0.1 2"/>
-  </worldbody>
-</mujoco>
-)";
 
 // Every way-point's corner is blunt enough for the reference to pass it within centimetres.
 constexpr char kMission[] = R"(

@@ -12,23 +12,13 @@
 
 #include "scenarios/calibration.h"
 #include "tests/scenarios/body_trajectory.h"
+#include "tests/scenarios/room.h"
 #include "tests/scenarios/temporary_directory.h"
 
 namespace plumbline {
 namespace {
 
 using testing::HasSubstr;
-
-constexpr char kRoom[] = R"(<mujoco>
-  <worldbody>
-    <geom type="box" pos="0 0 -0.1" size="8 8 0.1"/>
-    <geom type="box" pos="8 0 2" size="0.1 8 2"/>
-    <geom type="box" pos="-8 0 2" size="0.1 8 2"/>
-    <geom type="box" pos="0 8 2" size="8 0.1 2"/>
-    <geom type="box" pos="0 -8 2" size="8 0.1 2"/>
-  </worldbody>
-</mujoco>
-)";
 
 constexpr char kScenario[] = R"(
 world: {mjcf: room.xml}

@@ -72,7 +72,7 @@ TEST(Report, SaysHowAFlightInClosedLoopWent) {
   }
   const std::string page = page_of(record, a_scenario());
   EXPECT_TRUE(contains(page, "Flight in closed loop"));
-  EXPECT_TRUE(contains(page, "Flight struck; which error left its bound of 0.500 m first: estimate."));
+  EXPECT_TRUE(contains(page, "The flight ended: struck. First to leave its bound of 0.500 m: estimate."));
 }
 
 TEST(Report, NeedsNothingFromOutside) {

@@ -59,7 +59,7 @@ circle.start{fill:var(--card);stroke:var(--ink);stroke-width:2}circle.end{fill:v
 .camera svg{border-radius:8px;background:#000}
 .legend{display:flex;flex-wrap:wrap;gap:2px 14px;color:var(--soft);font-size:13px;margin:2px 0 4px}
 .legend i{display:inline-block;width:14px;height:10px;border-radius:3px;background:var(--hue);margin-right:6px}
-.scroll{overflow-x:auto}.pair+.card{margin-top:14px}
+.scroll{overflow-x:auto}.pair+.card,.tiles+.pair{margin-top:14px}
 table{border-collapse:collapse;width:100%;font-size:14px}
 th,td{text-align:left;padding:4px 10px 4px 0;border-bottom:1px solid var(--line);vertical-align:top;overflow-wrap:anywhere}
 th{color:var(--soft);font-weight:500;white-space:nowrap}td.number,th.number{text-align:right;font-variant-numeric:tabular-nums}

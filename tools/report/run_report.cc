@@ -117,9 +117,8 @@ std::string flight_section(const RunReport& report) {
   const FlightFigures& figures = *report.figures.flight;
   const std::string outcome = figures.origin == FailureOrigin::kNone
                                   ? "Flown as asked."
-                                  : "Flight " + to_string(figures.end) + "; which error left its bound of " +
-                                        readable_text(kWaypointReach_m) + " m first: " + to_string(figures.origin) +
-                                        ".";
+                                  : "The flight ended: " + to_string(figures.end) + ". First to leave its bound of " +
+                                        readable_text(kWaypointReach_m) + " m: " + to_string(figures.origin) + ".";
   return heading("Flight in closed loop",
                  "The craft flew on the estimate. Tracking: from the mission; estimate: of what the controller was "
                  "told; control: what is left of tracking without the estimate's. " +
