@@ -25,6 +25,7 @@ constexpr double kImplausibleBias = 5.0;  // turn-on sigmas; more than that abou
 constexpr double kSurprise = 3.0;         // sigmas
 constexpr double kStillStray = 5.0;       // times the noise's own walk: a hand strays 12 times as far, an idle engine 3
 constexpr double kRestSigma = 1e-4;       // [rad, m] a sample
+constexpr double kLeastForce = 1e-3;      // [m/s^2]; below, it says nothing of up
 constexpr double kSampleMargin = 2.0;     // of a single sample: rounding to the unit's steps adds to its noise
 
 /// Range of the walk that the deviations from the mean integrate to, the longest axis.
@@ -61,21 +62,27 @@ std::optional<InitialState> Initializer::add(const ImuSample& sample) {
   const bool manoeuvres = manoeuvring(strayed);
   if (!manoeuvres && elapsed < kRestWindow_s) return std::nullopt;
 
+  if (!manoeuvres) return calm_start(strayed);
   InitialState start;
   start.state.stamp_ns = sample.stamp_ns;
   start.watched_s = elapsed;
-  start.state.world_from_body = attitude();
-  if (manoeuvres) {
-    start.tilt_sigma = kManoeuvreTilt;
-    start.gyro_bias_covariance.diagonal().setConstant(squared(noise_.gyro_turn_on_sigma));
-    start.velocity_sigma = kTravelVelocity;
-    start.state.world_from_body = attitude_now(start.state.gyro_bias);
-    return start;
-  }
+  start.tilt_sigma = kManoeuvreTilt;
+  start.gyro_bias_covariance.diagonal().setConstant(squared(noise_.gyro_turn_on_sigma));
+  start.velocity_sigma = kTravelVelocity;
+  start.state.world_from_body = attitude_now(start.state.gyro_bias);
+  return start;
+}
+
+/// From what has been seen so far, of a body at rest or steady.
+InitialState Initializer::calm_start(const Excursion& strayed) const {
+  InitialState start;
+  start.state.stamp_ns = samples_.back().stamp_ns;
+  const double elapsed = start.watched_s = static_cast<double>(samples_.size()) / rate_hz_;
   const bool at_rest = strayed.velocity < kRestStray;
   find_gyro_bias(strayed, at_rest, start);
   // Only the length of the mean force is known to be gravity's; its direction is shared with the attitude.
-  start.state.accel_bias = mean_force_ * (1.0 - kStandardGravity / mean_force_.norm());
+  if (mean_force_.norm() > kLeastForce)
+    start.state.accel_bias = mean_force_ * (1.0 - kStandardGravity / mean_force_.norm());
   const double force_sigma = std::hypot(noise_.accel_density / std::sqrt(elapsed), 0.5 * strayed.velocity / elapsed);
   start.tilt_sigma = std::hypot(force_sigma / kStandardGravity, at_rest ? 0.0 : kSteadyTilt);
   start.velocity_sigma = at_rest ? std::hypot(kRestVelocity, strayed.velocity) : kTravelVelocity;
@@ -92,7 +99,8 @@ void Initializer::find_gyro_bias(const Excursion& strayed, bool at_rest, Initial
   // Between two random moments of a swing the body turns by half its range, root mean square.
   const double rate_sigma = std::hypot(noise_sigma, 0.5 * strayed.angle / elapsed);
   const bool still = strayed.angle < kStillStray * noise_sigma * elapsed;
-  const Eigen::Matrix3d body_from_world = start.state.world_from_body.rotation.conjugate().toRotationMatrix();
+  const Eigen::Vector3d up = mean_force_.norm() > kLeastForce ? mean_force_.normalized() : Eigen::Vector3d::UnitZ();
+  const Eigen::Matrix3d body_from_world = level(up).conjugate().toRotationMatrix();
   const Eigen::Vector3d mean = body_from_world.transpose() * mean_rate_;
   Eigen::Vector3d bias, variance;
   for (int i = 0; i < 3; ++i) {
@@ -130,8 +138,7 @@ Matrix6d Initializer::increment_covariance() const {
 }
 
 Pose Initializer::attitude() const {
-  if (mean_force_.norm() < 1e-3) return {};
-  return {level(mean_force_.normalized()), Eigen::Vector3d::Zero()};
+  return samples_.empty() ? Pose{} : calm_start(excursion()).state.world_from_body;
 }
 
 /// A hand turns by degrees within a second: forces are averaged in the newest B, and the heading has changed since the
@@ -143,7 +150,7 @@ Pose Initializer::attitude_now(const Eigen::Vector3d& gyro_bias) const {
     force += now_from_then * sample->specific_force;
     now_from_then = now_from_then * exp_so3((gyro_bias - sample->angular_rate) / rate_hz_);
   }
-  if (force.norm() < 1e-3 * static_cast<double>(samples_.size())) return {};
+  if (force.norm() < kLeastForce * static_cast<double>(samples_.size())) return {};
   const Eigen::Quaterniond level_from_now = level(force.normalized());
   const Eigen::Vector3d ahead_at_first = level_from_now * now_from_then * Eigen::Vector3d::UnitX();
   const Eigen::AngleAxisd undone(-std::atan2(ahead_at_first.y(), ahead_at_first.x()), Eigen::Vector3d::UnitZ());

@@ -29,7 +29,8 @@ class Initializer {
 
   /// Empty until enough is known. The world's x axis is the heading of the first sample.
   std::optional<InitialState> add(const ImuSample& sample);
-  /// Level attitude by what has been seen so far, at the origin; for outputs before the start.
+  /// By what has been seen so far, at the origin, as a start at rest now would have it: for outputs before the start,
+  /// which go over into the state without a step.
   Pose attitude() const;
   /// Of the attitude's change with the last sample: by how much its variance fell. What is taken to rest is held to do
   /// so within a millimetre and a tenth of a milliradian a sample.
@@ -43,6 +44,7 @@ class Initializer {
   };
   Excursion excursion() const;
   bool manoeuvring(const Excursion& excursion) const;
+  InitialState calm_start(const Excursion& strayed) const;
   void find_gyro_bias(const Excursion& strayed, bool at_rest, InitialState& start) const;
   Pose attitude_now(const Eigen::Vector3d& gyro_bias) const;
 

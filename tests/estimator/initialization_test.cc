@@ -92,6 +92,37 @@ TEST(Initializer, AHandThatTurnsWhileWatchedHasTurned) {
   EXPECT_LT(2.0 * sigma, 0.4 * kTurn);  // or the line above would pass whatever was said
 }
 
+/// What is given out before the start is a pose as any other: it turns as the hand does, and goes over into the state
+/// without a step.
+TEST(Initializer, OutputsBeforeTheStartTurnAsTheHandDoes) {
+  Calibration calibration;
+  Initializer initializer(calibration);
+  // A sway of half a degree at 1.3 Hz; tilt and heading alike.
+  const double amplitude = 0.009, frequency = kTwoPi * 1.3;
+  const Eigen::Vector3d axis = Eigen::Vector3d(1.0, 0.0, 1.0).normalized();
+  Eigen::Quaterniond before = Eigen::Quaterniond::Identity();
+  double sum_of_squares = 0.0, sum_of_squares_of_errors = 0.0;
+  bool started = false;
+  for (int i = 1; !started; ++i) {
+    const double t = i / calibration.imu_rate_hz;
+    ASSERT_LT(t, 2.0);
+    const Eigen::AngleAxisd turned(amplitude * std::sin(frequency * t), axis);
+    const auto start = initializer.add({static_cast<std::int64_t>(std::llround(t * 1e9)),
+                                        amplitude * frequency * std::cos(frequency * t) * axis,
+                                        turned.toRotationMatrix().transpose() * kUp});
+    started = start.has_value();
+    const Eigen::Quaterniond given = (start ? start->state.world_from_body : initializer.attitude()).rotation;
+    if (started) {
+      EXPECT_LT(given.angularDistance(before), 0.2 * amplitude);  // a sample's turn is up to 0.04
+    }
+    before = given;
+    sum_of_squares += std::pow(turned.angle(), 2);
+    sum_of_squares_of_errors += std::pow(given.angularDistance(Eigen::Quaterniond(turned)), 2);
+  }
+  // A part of the mean rate passes for bias, as it may be one; outputs that do not turn would err by all.
+  EXPECT_LT(std::sqrt(sum_of_squares_of_errors), 0.5 * std::sqrt(sum_of_squares));
+}
+
 /// Ten times the unit's noise at 40 Hz, as an idle engine or standing rotors make, moves the body by micrometres: it
 /// is no motion, and a bias far beyond the data sheet's is still found.
 TEST(Initializer, VibrationAtRestIsNoMotion) {
