@@ -1,9 +1,11 @@
 #include "estimator/lidar/crease.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace plumbline {
 namespace {
@@ -12,6 +14,10 @@ constexpr int kLargestWindow = 81;
 constexpr int kLeastPerSide = 4;
 constexpr float kLeastTurnSine = 0.5F;  // 30 degrees
 constexpr float kLargestMisfit = 1.5F;  // root mean square distance to the lines over range noise
+constexpr double kLargestRadius_m = 0.6;  // of a trunk or a column
+// By so many variances of a return must the lines explain the returns better than a circle does: with two parameters
+// more they always gain two.
+constexpr double kLeastGain = 10.0;
 
 /// Sums from which a line through a window's points follows.
 struct Moments {
@@ -46,6 +52,10 @@ struct Profile {
   Eigen::Vector3f bend;
   int count = 0;
   std::array<Moments, kLargestWindow + 1> sums;
+  std::array<Eigen::Vector2f, kLargestWindow> points;
+
+  std::span<const Eigen::Vector2f> used() const { return {points.data(), static_cast<std::size_t>(count)}; }
+  Eigen::Vector3f in_body(const Eigen::Vector2f& p) const { return origin + p.x() * along + p.y() * bend; }
 };
 
 Profile profile_of(const RingTable& table, int i, int half_window) {
@@ -61,15 +71,70 @@ Profile profile_of(const RingTable& table, int i, int half_window) {
     const Eigen::Vector3f d = table.position(first + k) - p.origin;
     const float x = d.dot(p.along);
     const float y = d.dot(p.bend);
+    p.points[static_cast<std::size_t>(k)] = {x, y};
     const Moments& s = p.sums[static_cast<std::size_t>(k)];
     p.sums[static_cast<std::size_t>(k) + 1] = {s.n + 1.0F, s.x + x, s.y + y, s.xx + x * x, s.xy + x * y, s.yy + y * y};
   }
   return p;
 }
 
+struct Circle {
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+  double radius = 0.0;
+  double misfit = 0.0;  // sum of squared distances
+};
+
+/// Least squares of |p|^2 = 2 centre . p + constant (Kasa, IEEE Trans. Instrum. Meas. 25(1), 1976), a first guess: noise
+/// makes its circles too small.
+Circle guess_circle(std::span<const Eigen::Vector2f> points) {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector2f& point : points) {
+    const Eigen::Vector2d p = point.cast<double>();
+    const Eigen::Vector3d row(2.0 * p.x(), 2.0 * p.y(), 1.0);
+    normal += row * row.transpose();
+    right += p.squaredNorm() * row;
+  }
+  const Eigen::Vector3d solved = normal.ldlt().solve(right);
+  return {solved.head<2>(), std::sqrt(std::max(0.0, solved.z() + solved.head<2>().squaredNorm())), 0.0};
+}
+
+/// Least squares of the distances, by Gauss and Newton.
+Circle fit_circle(std::span<const Eigen::Vector2f> points) {
+  constexpr int kIterations = 4;
+  Circle circle = guess_circle(points);
+  for (int iteration = 0;; ++iteration) {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    circle.misfit = 0.0;
+    for (const Eigen::Vector2f& p : points) {
+      const Eigen::Vector2d from_centre = p.cast<double>() - circle.centre;
+      const double distance = from_centre.norm();
+      const double residual = distance - circle.radius;
+      const Eigen::Vector3d row(from_centre.x() / distance, from_centre.y() / distance, 1.0);
+      circle.misfit += residual * residual;
+      normal += row * row.transpose();
+      right += residual * row;
+    }
+    if (iteration == kIterations) return circle;
+    const Eigen::Vector3d step = normal.ldlt().solve(right);
+    circle.centre += step.head<2>();
+    circle.radius += step.z();
+  }
+}
+
+/// Whether a circle that bulges towards the sensor explains the returns as well as lines with such a misfit do.
+bool is_round(const Circle& circle, double misfit_of_lines, int count) {
+  // The bend points from the chord to the returns in the middle; a bulge has its centre on the other side of them.
+  if (!(circle.radius < kLargestRadius_m) || circle.centre.y() > 0.0) return false;
+  const double variance = std::min(misfit_of_lines / std::max(1, count - 5), circle.misfit / (count - 3));
+  return circle.misfit - misfit_of_lines < kLeastGain * variance;
+}
+
 }  // namespace
 
-std::optional<Eigen::Vector3f> fit_crease(const RingTable& table, int i, int half_window, float range_sigma) {
+std::optional<Eigen::Vector3f> fit_crease(const RingTable& table, int i, int half_window, float range_sigma,
+                                          const Eigen::Vector3f& origin) {
   if (2 * half_window + 1 > kLargestWindow) return std::nullopt;
   const Profile p = profile_of(table, i, half_window);
   const Moments& all = p.sums[static_cast<std::size_t>(p.count)];
@@ -88,16 +153,29 @@ std::optional<Eigen::Vector3f> fit_crease(const RingTable& table, int i, int hal
   }
   const float turn = left.direction.x() * right.direction.y() - left.direction.y() * right.direction.x();
   if (std::abs(turn) < kLeastTurnSine) return std::nullopt;
-  const float freedom = static_cast<float>(std::max(1, p.count - 5));
-  if (least / freedom > std::pow(kLargestMisfit * range_sigma, 2.0F)) return std::nullopt;
+  const double largest_misfit = std::pow(double{kLargestMisfit} * double{range_sigma}, 2.0);
+  if (p.bend.dot(table.position(i) - origin) < 0.0F) {
+    const Circle circle = fit_circle(p.used());
+    if (is_round(circle, double{least}, p.count) && circle.misfit / (p.count - 3) < largest_misfit)
+      return p.in_body(circle.centre.cast<float>());
+  }
+  if (double{least} / std::max(1, p.count - 5) > largest_misfit) return std::nullopt;
   const Eigen::Vector2f gap = right.point - left.point;
   const float reach = (gap.x() * right.direction.y() - gap.y() * right.direction.x()) / turn;
   const Eigen::Vector2f crossing = left.point + reach * left.direction;
-  const Eigen::Vector3f position = p.origin + crossing.x() * p.along + crossing.y() * p.bend;
+  const Eigen::Vector3f position = p.in_body(crossing);
   // Lines that cross far from the returns between them are not those of an edge here.
   const float extent = (table.position(i + half_window) - table.position(i - half_window)).norm();
   if ((position - table.position(i)).norm() > 0.5F * extent) return std::nullopt;
   return position;
+}
+
+bool is_bent(const RingTable& table, int i, int half_window) {
+  if (2 * half_window + 1 > kLargestWindow) return false;
+  const Profile p = profile_of(table, i, half_window);
+  const Circle circle = fit_circle(p.used());
+  const double misfit_of_line = double{fit(p.sums[static_cast<std::size_t>(p.count)]).misfit};
+  return misfit_of_line - circle.misfit > kLeastGain * circle.misfit / (p.count - 3);
 }
 
 }  // namespace plumbline

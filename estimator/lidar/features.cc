@@ -206,7 +206,9 @@ class Extraction {
     if (!table_.adjacent_in_angle(i, beyond) || table_.range(beyond) <= table_.range(i)) return false;
     const int inside = starts_run ? i + kLeastHalfWindow : i - kLeastHalfWindow;
     const Eigen::Vector3f along = (table_.position(inside) - table_.position(i)).normalized();
-    return along.cross(beam(i)).norm() > kSilhouetteGrazing;
+    if (along.cross(beam(i)).norm() <= kSilhouetteGrazing) return false;
+    const int half_window = std::min(wanted_half_window(ring, i), (table_.run_end(i) - table_.run_begin(i) - 1) / 2);
+    return !is_bent(table_, starts_run ? i + half_window : i - half_window, half_window);
   }
 
   /// From a silhouette's return to where the next beam, which missed it, passed at the same range.
@@ -255,7 +257,7 @@ class Extraction {
     if (!c.step.isZero()) return table_.position(c.index) + 0.5F * c.step;
     std::optional<Eigen::Vector3f> position;
     for (int n = c.half_window; n >= kLeastHalfWindow && !position; n /= 2) {
-      position = fit_crease(table_, c.index, n, range_sigma_);
+      position = fit_crease(table_, c.index, n, range_sigma_, origin_);
     }
     return position;
   }

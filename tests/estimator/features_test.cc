@@ -57,6 +57,27 @@ TEST(Features, FindsTheCornersOfARoomToAFractionOfTheNoise) {
   EXPECT_LT(std::sqrt(sum / static_cast<double>(cloud.edges.size())), kRangeSigma);
 }
 
+/// The nearest side of something round is elsewhere from everywhere; its axis is not.
+TEST(Features, ATrunksEdgeIsItsAxis) {
+  BoxWorld world;
+  world.boxes.push_back({{-20.0, -20.0, -50.0}, {20.0, 20.0, 50.0}, true});
+  const testing::Trunk trunk{{6.0, 1.0}, 0.2};
+  world.trunks.push_back(trunk);
+  for (const Pose& pose : {standing_at(0.0, 0.0, 0.0), standing_at(4.5, -2.0, 0.0)}) {
+    int on_axis = 0;
+    for (const FeaturePoint& e : features_at(world, pose).edges) {
+      const Eigen::Vector2d off = (pose * e.position.cast<double>()).head<2>() - trunk.axis;
+      if (off.norm() > 0.5) continue;
+      // Its borders before the wall are edges, too.
+      const Eigen::Vector2d beam = (trunk.axis - pose.translation.head<2>()).normalized();
+      if (std::abs(beam.x() * off.y() - beam.y() * off.x()) > 0.7 * trunk.radius_m) continue;
+      EXPECT_LT(off.norm(), 0.25 * trunk.radius_m);
+      ++on_axis;
+    }
+    EXPECT_GE(on_axis, 8);  // of 16 rings
+  }
+}
+
 TEST(Features, OfAnOcclusionOnlyTheNearSideIsAnEdge) {
   BoxWorld world;
   world.boxes.push_back({{-8.0, -8.0, -50.0}, {8.0, 8.0, 50.0}, true});

@@ -107,6 +107,30 @@ TEST(ScanMatcher, InATunnelOnlyTheAxisKeepsTheGuess) {
   EXPECT_GT(result.spectrum.eigenvalues[1], 50.0 * result.spectrum.eigenvalues[0]);
 }
 
+/// Trunks that are passed show ever other sides. Each match may err by its noise, but not all of them to one side: what
+/// they share becomes drift, a share of it a scan.
+TEST(ScanMatcher, PassingTrunksDoesNotPullBackwards) {
+  constexpr int kScans = 60;
+  constexpr double kStep_m = 0.5;
+  const BoxWorld avenue = testing::avenue(kScans * kStep_m);
+  RandomStream noise(6, "lidar");
+  ScanMatcher matcher(calibration(), {}, true);
+  double sum_m = 0.0;
+  int matched = 0;
+  for (int k = 0; k < kScans; ++k) {
+    const Pose truth = at(kStep_m * k);
+    const FeatureCloud scan = still_scan(avenue, truth, noise);
+    const SolveResult result = matcher.match(scan, loose(truth));
+    if (result.spectrum.well_conditioned == 6) {
+      sum_m += truth.local(result.pose)[3];
+      ++matched;
+    }
+    matcher.insert(scan, truth, kStep_m * k);
+  }
+  ASSERT_GT(matched, kScans / 2);
+  EXPECT_LT(std::abs(sum_m / matched), 0.4 * kRangeSigma);  // the trunks' nearest sides pull by 0.8 of it
+}
+
 TEST(ScanMatcher, ForcedSixDofSolvesEvenTheAxisOfATunnel) {
   RandomStream noise(6, "lidar");
   const BoxWorld tunnel = testing::smooth_tunnel();

@@ -27,6 +27,14 @@ double cast_tube(double radius, const Eigen::Vector3d& origin, const Eigen::Vect
   return (-b + std::sqrt(b * b - a * c)) / a;
 }
 
+double cast_trunk(const Trunk& trunk, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
+  const Eigen::Vector2d from = origin.head<2>() - trunk.axis;
+  const double a = direction.head<2>().squaredNorm();
+  const double b = from.dot(direction.head<2>());
+  const double root = b * b - a * (from.squaredNorm() - trunk.radius_m * trunk.radius_m);
+  return root >= 0.0 && b < 0.0 ? (-b - std::sqrt(root)) / a : kFar;
+}
+
 double distance_to_box(const Box& box, const Eigen::Vector3d& p) {
   const Eigen::Array3d outside = (box.low - p).array().max((p - box.high).array());
   const double inside_depth = outside.maxCoeff();
@@ -43,16 +51,20 @@ double BoxWorld::cast(const Eigen::Vector3d& origin, const Eigen::Vector3d& dire
   const Eigen::Vector3d inverse = direction.cwiseInverse();
   double nearest = tube_radius_m > 0.0 ? cast_tube(tube_radius_m, origin, direction) : kFar;
   for (const Box& box : boxes) nearest = std::min(nearest, cast_box(box, origin, inverse));
+  for (const Trunk& trunk : trunks) nearest = std::min(nearest, cast_trunk(trunk, origin, direction));
   return nearest;
 }
 
 double BoxWorld::distance(const Eigen::Vector3d& point) const {
   double nearest = tube_radius_m > 0.0 ? std::abs(point.tail<2>().norm() - tube_radius_m) : kFar;
   for (const Box& box : boxes) nearest = std::min(nearest, distance_to_box(box, point));
+  for (const Trunk& trunk : trunks) {
+    nearest = std::min(nearest, std::abs((point.head<2>() - trunk.axis).norm() - trunk.radius_m));
+  }
   return nearest;
 }
 
-BoxWorld smooth_tunnel() { return {{{{-500.0, -2.25, -1.2}, {500.0, 2.25, 1.8}, true}}}; }
+BoxWorld smooth_tunnel() { return {{{{-500.0, -2.25, -1.2}, {500.0, 2.25, 1.8}, true}}, {}}; }
 
 BoxWorld framed_corridor(double spacing_m) {
   BoxWorld world = smooth_tunnel();
@@ -84,6 +96,18 @@ BoxWorld pillared_hall(double length_m) {
     const double half = place.uniform(0.2, 0.5);
     const double height = place.uniform() < 0.5 ? 4.0 : place.uniform(-0.2, 1.5);
     world.boxes.push_back(solid(x - half, y - half, -1.0, x + half, y + half, height));
+  }
+  return world;
+}
+
+BoxWorld avenue(double length_m) {
+  BoxWorld world;
+  world.boxes.push_back({{-200.0, -200.0, -1.2}, {length_m + 200.0, 200.0, 60.0}, true});
+  RandomStream place(9, "avenue");
+  for (const double side : {-1.0, 1.0}) {
+    for (double x = -20.0; x < length_m + 20.0; x += place.uniform(2.5, 5.0)) {
+      world.trunks.push_back({{x, side * place.uniform(3.0, 6.0)}, place.uniform(0.1, 0.2)});
+    }
   }
   return world;
 }

@@ -18,9 +18,16 @@ struct Box {
   bool hollow = false;
 };
 
+/// An upright cylinder without end.
+struct Trunk {
+  Eigen::Vector2d axis = Eigen::Vector2d::Zero();
+  double radius_m = 0.2;
+};
+
 /// A world whose ray casting and distances are closed forms, so that a test needs no simulator to know the truth.
 struct BoxWorld {
   std::vector<Box> boxes;
+  std::vector<Trunk> trunks;
   double tube_radius_m = 0.0;  ///< a cylinder around the x axis, where above zero
 
   /// Distance along a unit ray to the first surface; infinite where there is none.
@@ -40,6 +47,9 @@ BoxWorld pillared_hall(double length_m);
 
 /// A motion as the true world_from_body over time [s].
 using Motion = std::function<Pose(double time_s)>;
+
+/// Level ground with a row of trunks 10 to 20 cm thick on either side of the x axis, for a drive of `length_m`.
+BoxWorld avenue(double length_m);
 
 /// VLP-16 pattern: 16 rings 2 degrees apart, 1808 firings a revolution, 10 Hz, every return from where the lidar is
 /// then.
