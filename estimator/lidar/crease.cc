@@ -15,8 +15,8 @@ constexpr int kLeastPerSide = 4;
 constexpr float kLeastTurnSine = 0.5F;  // 30 degrees
 constexpr float kLargestMisfit = 1.5F;  // root mean square distance to the lines over range noise
 constexpr double kLargestRadius_m = 0.6;  // of a trunk or a column
-// By so many variances of a return must the lines explain the returns better than a circle does: with two parameters
-// more they always gain two.
+// By so many variances of a return must a circle explain the returns better than a straight line does: with a parameter
+// more it always gains one.
 constexpr double kLeastGain = 10.0;
 
 /// Sums from which a line through a window's points follows.
@@ -123,12 +123,11 @@ Circle fit_circle(std::span<const Eigen::Vector2f> points) {
   }
 }
 
-/// Whether a circle that bulges towards the sensor explains the returns as well as lines with such a misfit do.
-bool is_round(const Circle& circle, double misfit_of_lines, int count) {
+/// Whether a circle that bulges towards the sensor explains the returns better than two lines with such a misfit do,
+/// though these have two parameters more.
+bool is_round(const Circle& circle, double misfit_of_lines) {
   // The bend points from the chord to the returns in the middle; a bulge has its centre on the other side of them.
-  if (!(circle.radius < kLargestRadius_m) || circle.centre.y() > 0.0) return false;
-  const double variance = std::min(misfit_of_lines / std::max(1, count - 5), circle.misfit / (count - 3));
-  return circle.misfit - misfit_of_lines < kLeastGain * variance;
+  return circle.radius < kLargestRadius_m && circle.centre.y() <= 0.0 && circle.misfit < misfit_of_lines;
 }
 
 }  // namespace
@@ -154,10 +153,11 @@ std::optional<Eigen::Vector3f> fit_crease(const RingTable& table, int i, int hal
   const float turn = left.direction.x() * right.direction.y() - left.direction.y() * right.direction.x();
   if (std::abs(turn) < kLeastTurnSine) return std::nullopt;
   const double largest_misfit = std::pow(double{kLargestMisfit} * double{range_sigma}, 2.0);
-  if (p.bend.dot(table.position(i) - origin) < 0.0F) {
+  const bool bulges = p.bend.dot(table.position(i) - origin) < 0.0F;
+  if (bulges) {
     const Circle circle = fit_circle(p.used());
-    if (is_round(circle, double{least}, p.count) && circle.misfit / (p.count - 3) < largest_misfit)
-      return p.in_body(circle.centre.cast<float>());
+    const bool fits = circle.misfit / (p.count - 3) < largest_misfit;
+    if (fits && is_round(circle, double{least})) return p.in_body(circle.centre.cast<float>());
   }
   if (double{least} / std::max(1, p.count - 5) > largest_misfit) return std::nullopt;
   const Eigen::Vector2f gap = right.point - left.point;
@@ -175,7 +175,8 @@ bool is_bent(const RingTable& table, int i, int half_window) {
   const Profile p = profile_of(table, i, half_window);
   const Circle circle = fit_circle(p.used());
   const double misfit_of_line = double{fit(p.sums[static_cast<std::size_t>(p.count)]).misfit};
-  return misfit_of_line - circle.misfit > kLeastGain * circle.misfit / (p.count - 3);
+  return circle.radius < kLargestRadius_m &&
+         misfit_of_line - circle.misfit > kLeastGain * circle.misfit / (p.count - 3);
 }
 
 }  // namespace plumbline
