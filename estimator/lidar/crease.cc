@@ -6,14 +6,15 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 namespace plumbline {
 namespace {
 
 constexpr int kLargestWindow = 81;
 constexpr int kLeastPerSide = 4;
-constexpr float kLeastTurnSine = 0.5F;  // 30 degrees
-constexpr float kLargestMisfit = 1.5F;  // root mean square distance to the lines over range noise
+constexpr float kLeastTurnSine = 0.5F;    // 30 degrees
+constexpr float kLargestMisfit = 1.5F;    // root mean square distance to the lines over range noise
 constexpr double kLargestRadius_m = 0.6;  // of a trunk or a column
 // By so many variances of a return must a circle explain the returns better than a straight line does: with a parameter
 // more it always gains one.
@@ -78,14 +79,31 @@ Profile profile_of(const RingTable& table, int i, int half_window) {
   return p;
 }
 
+/// Those to either side of the break that explains the returns best.
+std::pair<Line, Line> fit_two_lines(const Profile& p, int half_window) {
+  const Moments& all = p.sums[static_cast<std::size_t>(p.count)];
+  std::pair<Line, Line> best;
+  float least = std::numeric_limits<float>::infinity();
+  const int sway = std::min(half_window / 2, half_window - kLeastPerSide + 1);
+  for (int k = half_window - sway; k <= half_window + 1 + sway; ++k) {
+    const Moments& head = p.sums[static_cast<std::size_t>(k)];
+    const Line left = fit(head);
+    const Line right = fit(all - head);
+    if (left.misfit + right.misfit >= least) continue;
+    least = left.misfit + right.misfit;
+    best = {left, right};
+  }
+  return best;
+}
+
 struct Circle {
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();
   double radius = 0.0;
   double misfit = 0.0;  // sum of squared distances
 };
 
-/// Least squares of |p|^2 = 2 centre . p + constant (Kasa, IEEE Trans. Instrum. Meas. 25(1), 1976), a first guess: noise
-/// makes its circles too small.
+/// Least squares of |p|^2 = 2 centre . p + constant (Kasa, IEEE Trans. Instrum. Meas. 25(1), 1976), a first guess:
+/// noise makes its circles too small.
 Circle guess_circle(std::span<const Eigen::Vector2f> points) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
@@ -123,11 +141,10 @@ Circle fit_circle(std::span<const Eigen::Vector2f> points) {
   }
 }
 
-/// Whether a circle that bulges towards the sensor explains the returns better than two lines with such a misfit do,
-/// though these have two parameters more.
+/// Whether a circle no larger than a column explains the returns better than two lines with such a misfit do, though
+/// these have two parameters more.
 bool is_round(const Circle& circle, double misfit_of_lines) {
-  // The bend points from the chord to the returns in the middle; a bulge has its centre on the other side of them.
-  return circle.radius < kLargestRadius_m && circle.centre.y() <= 0.0 && circle.misfit < misfit_of_lines;
+  return circle.radius < kLargestRadius_m && circle.misfit < misfit_of_lines;
 }
 
 }  // namespace
@@ -136,20 +153,8 @@ std::optional<Eigen::Vector3f> fit_crease(const RingTable& table, int i, int hal
                                           const Eigen::Vector3f& origin) {
   if (2 * half_window + 1 > kLargestWindow) return std::nullopt;
   const Profile p = profile_of(table, i, half_window);
-  const Moments& all = p.sums[static_cast<std::size_t>(p.count)];
-  Line left;
-  Line right;
-  float least = std::numeric_limits<float>::infinity();
-  const int sway = std::min(half_window / 2, half_window - kLeastPerSide + 1);
-  for (int k = half_window - sway; k <= half_window + 1 + sway; ++k) {
-    const Moments& head = p.sums[static_cast<std::size_t>(k)];
-    const Line l = fit(head);
-    const Line r = fit(all - head);
-    if (l.misfit + r.misfit >= least) continue;
-    least = l.misfit + r.misfit;
-    left = l;
-    right = r;
-  }
+  const auto [left, right] = fit_two_lines(p, half_window);
+  const double misfit_of_lines = double{left.misfit + right.misfit};
   const float turn = left.direction.x() * right.direction.y() - left.direction.y() * right.direction.x();
   if (std::abs(turn) < kLeastTurnSine) return std::nullopt;
   const double largest_misfit = std::pow(double{kLargestMisfit} * double{range_sigma}, 2.0);
@@ -157,9 +162,9 @@ std::optional<Eigen::Vector3f> fit_crease(const RingTable& table, int i, int hal
   if (bulges) {
     const Circle circle = fit_circle(p.used());
     const bool fits = circle.misfit / (p.count - 3) < largest_misfit;
-    if (fits && is_round(circle, double{least})) return p.in_body(circle.centre.cast<float>());
+    if (fits && is_round(circle, misfit_of_lines)) return p.in_body(circle.centre.cast<float>());
   }
-  if (double{least} / std::max(1, p.count - 5) > largest_misfit) return std::nullopt;
+  if (misfit_of_lines / std::max(1, p.count - 5) > largest_misfit) return std::nullopt;
   const Eigen::Vector2f gap = right.point - left.point;
   const float reach = (gap.x() * right.direction.y() - gap.y() * right.direction.x()) / turn;
   const Eigen::Vector2f crossing = left.point + reach * left.direction;
@@ -170,12 +175,13 @@ std::optional<Eigen::Vector3f> fit_crease(const RingTable& table, int i, int hal
   return position;
 }
 
-bool is_bent(const RingTable& table, int i, int half_window) {
-  if (2 * half_window + 1 > kLargestWindow) return false;
+bool is_round(const RingTable& table, int i, int half_window) {
+  if (half_window < kLeastPerSide || 2 * half_window + 1 > kLargestWindow) return false;
   const Profile p = profile_of(table, i, half_window);
+  const auto [left, right] = fit_two_lines(p, half_window);
   const Circle circle = fit_circle(p.used());
   const double misfit_of_line = double{fit(p.sums[static_cast<std::size_t>(p.count)]).misfit};
-  return circle.radius < kLargestRadius_m &&
+  return is_round(circle, double{left.misfit + right.misfit}) &&
          misfit_of_line - circle.misfit > kLeastGain * circle.misfit / (p.count - 3);
 }
 

@@ -208,7 +208,7 @@ class Extraction {
     const Eigen::Vector3f along = (table_.position(inside) - table_.position(i)).normalized();
     if (along.cross(beam(i)).norm() <= kSilhouetteGrazing) return false;
     const int half_window = std::min(wanted_half_window(ring, i), (table_.run_end(i) - table_.run_begin(i) - 1) / 2);
-    return !is_bent(table_, starts_run ? i + half_window : i - half_window, half_window);
+    return !is_round(table_, starts_run ? i + half_window : i - half_window, half_window);
   }
 
   /// From a silhouette's return to where the next beam, which missed it, passed at the same range.
