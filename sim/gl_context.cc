@@ -86,6 +86,8 @@ struct Functions {
 
 OSMesaContext create_context(int threads) {
   setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
+  // Mesa keeps compiled shaders in the user's home, written by a thread of its own. They cost 0.3 s to make.
+  setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
   const int attributes[] = {OSMESA_FORMAT,
                             OSMESA_RGBA,
                             OSMESA_DEPTH_BITS,
