@@ -207,6 +207,7 @@ class Extraction {
     const int inside = starts_run ? i + kLeastHalfWindow : i - kLeastHalfWindow;
     const Eigen::Vector3f along = (table_.position(inside) - table_.position(i)).normalized();
     if (along.cross(beam(i)).norm() <= kSilhouetteGrazing) return false;
+    // Of a trunk the chord may stand across the beam, and still the border seen depends on where it is seen from.
     const int half_window = std::min(wanted_half_window(ring, i), (table_.run_end(i) - table_.run_begin(i) - 1) / 2);
     return !is_round(table_, starts_run ? i + half_window : i - half_window, half_window);
   }

@@ -45,11 +45,11 @@ BoxWorld furnished_room();
 /// A hall along x, 14 m wide, with pillars and crates at irregular places, for a drive of `length_m`.
 BoxWorld pillared_hall(double length_m);
 
+/// Level ground with a row of trunks of 10 to 20 cm radius on either side of the x axis, for a drive of `length_m`.
+BoxWorld avenue(double length_m);
+
 /// A motion as the true world_from_body over time [s].
 using Motion = std::function<Pose(double time_s)>;
-
-/// Level ground with a row of trunks 10 to 20 cm thick on either side of the x axis, for a drive of `length_m`.
-BoxWorld avenue(double length_m);
 
 /// VLP-16 pattern: 16 rings 2 degrees apart, 1808 firings a revolution, 10 Hz, every return from where the lidar is
 /// then.
