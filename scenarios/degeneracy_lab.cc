@@ -142,8 +142,8 @@ class Lab {
   void take(const LidarScan& scan, LabRun& run) {
     const PoseTrack track = true_track(scan);
     const Pose world_from_body = track.at(scan.end_ns);
-    const auto points = deskew(scan, track, calibration_.body_from_lidar, scan.end_ns);
-    const FeatureCloud features = extract_features(scan, points, calibration_);
+    const DeskewedScan deskewed = deskew(scan, track, calibration_.body_from_lidar, scan.end_ns);
+    const FeatureCloud features = extract_features(scan, deskewed, calibration_);
     const Pose guess = guess_near(world_from_body);
     if (scan.stamp_ns >= kWarmUp_ns) {
       matcher_.match(features, {guess, Matrix6d::Identity()});

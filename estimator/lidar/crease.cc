@@ -149,8 +149,7 @@ bool is_round(const Circle& circle, double misfit_of_lines) {
 
 }  // namespace
 
-std::optional<Eigen::Vector3f> fit_crease(const RingTable& table, int i, int half_window, float range_sigma,
-                                          const Eigen::Vector3f& origin) {
+std::optional<Eigen::Vector3f> fit_crease(const RingTable& table, int i, int half_window, float range_sigma) {
   if (2 * half_window + 1 > kLargestWindow) return std::nullopt;
   const Profile p = profile_of(table, i, half_window);
   const auto [left, right] = fit_two_lines(p, half_window);
@@ -158,7 +157,7 @@ std::optional<Eigen::Vector3f> fit_crease(const RingTable& table, int i, int hal
   const float turn = left.direction.x() * right.direction.y() - left.direction.y() * right.direction.x();
   if (std::abs(turn) < kLeastTurnSine) return std::nullopt;
   const double largest_misfit = std::pow(double{kLargestMisfit} * double{range_sigma}, 2.0);
-  const bool bulges = p.bend.dot(table.position(i) - origin) < 0.0F;
+  const bool bulges = p.bend.dot(table.beam(i)) < 0.0F;
   if (bulges) {
     const Circle circle = fit_circle(p.used());
     const bool fits = circle.misfit / (p.count - 3) < largest_misfit;

@@ -55,15 +55,13 @@ struct EdgeCandidate {
   int index = 0;
   int half_window = 0;
   float score = 0.0F;
-  Eigen::Vector3f step = Eigen::Vector3f::Zero();  // silhouettes: to where the next beam passed the edge
+  std::optional<Eigen::Vector3f> step;  // of silhouettes only: to where the next beam passed the edge
 };
 
 class Extraction {
  public:
   Extraction(const RingTable& table, const Calibration& calibration)
-      : table_(table),
-        range_sigma_(static_cast<float>(calibration.lidar_range_sigma_m)),
-        origin_(calibration.body_from_lidar.translation.cast<float>()) {
+      : table_(table), range_sigma_(static_cast<float>(calibration.lidar_range_sigma_m)) {
     shapes_.resize(static_cast<std::size_t>(table.size()));
     for (int r = 0; r < table_.ring_count(); ++r) {
       for (int i = table_.ring_begin(r); i < table_.ring_end(r); ++i) shape(i) = measure(r, i);
@@ -152,7 +150,6 @@ class Extraction {
   Shape& shape(int i) { return shapes_[static_cast<std::size_t>(i)]; }
   const Shape& shape(int i) const { return shapes_[static_cast<std::size_t>(i)]; }
   float seconds(int i) const { return 1e-9F * static_cast<float>(table_.offset_ns(i)); }
-  Eigen::Vector3f beam(int i) const { return (table_.position(i) - origin_).normalized(); }
 
   int wanted_half_window(int ring, int i) const {
     const float step_m = std::max(1e-3F, table_.beam_spacing(ring) * table_.range(i));
@@ -186,11 +183,11 @@ class Extraction {
       if (s.half_window > 0) {
         if (s.deviation_m < std::max(kEdgeCurvature * table_.range(i), kEdgeSigmas * s.sigma_m)) continue;
         if (runs_along_beam(i, above, below)) continue;
-        candidates.push_back({i, s.half_window, s.deviation_m / table_.range(i), Eigen::Vector3f::Zero()});
+        candidates.push_back({i, s.half_window, s.deviation_m / table_.range(i), std::nullopt});
       } else if (is_silhouette(i, ring)) {
         // Ranked by the turn that the unseen side of the step would show: half the least window, at a right angle.
         candidates.push_back(
-            {i, kLeastHalfWindow, 0.5F * kLeastHalfWindow * table_.beam_spacing(ring), silhouette_step(i, ring)});
+            {i, kLeastHalfWindow, 0.5F * kLeastHalfWindow * table_.beam_spacing(ring), silhouette_step(i)});
       }
     }
   }
@@ -206,18 +203,16 @@ class Extraction {
     if (!table_.adjacent_in_angle(i, beyond) || table_.range(beyond) <= table_.range(i)) return false;
     const int inside = starts_run ? i + kLeastHalfWindow : i - kLeastHalfWindow;
     const Eigen::Vector3f along = (table_.position(inside) - table_.position(i)).normalized();
-    if (along.cross(beam(i)).norm() <= kSilhouetteGrazing) return false;
+    if (along.cross(table_.beam(i)).norm() <= kSilhouetteGrazing) return false;
     // Of a trunk the chord may stand across the beam, and still the border seen depends on where it is seen from.
     const int half_window = std::min(wanted_half_window(ring, i), (table_.run_end(i) - table_.run_begin(i) - 1) / 2);
     return !is_round(table_, starts_run ? i + half_window : i - half_window, half_window);
   }
 
   /// From a silhouette's return to where the next beam, which missed it, passed at the same range.
-  Eigen::Vector3f silhouette_step(int i, int ring) const {
+  Eigen::Vector3f silhouette_step(int i) const {
     const int beyond = i == table_.run_begin(i) ? i - 1 : i + 1;
-    const Eigen::Vector3f missed = origin_ + table_.range(i) * beam(beyond);
-    const Eigen::Vector3f step = missed - (origin_ + table_.range(i) * beam(i));
-    return step.norm() < 3.0F * table_.beam_spacing(ring) * table_.range(i) ? step : Eigen::Vector3f::Zero();
+    return table_.range(i) * (table_.beam(beyond) - table_.beam(i));
   }
 
   /// Where the same surface steps almost along the beam from ring to ring, a ring bends sharply on a smooth surface
@@ -226,7 +221,7 @@ class Extraction {
     const Eigen::Vector3f up = step_across(i, above.at(i));
     const Eigen::Vector3f down = step_across(i, below.at(i));
     const auto along = [&](const Eigen::Vector3f& step) {
-      return !step.isZero() && step.cross(beam(i)).norm() < kSilhouetteGrazing * step.norm();
+      return !step.isZero() && step.cross(table_.beam(i)).norm() < kSilhouetteGrazing * step.norm();
     };
     return along(up) || along(down);
   }
@@ -244,7 +239,7 @@ class Extraction {
       const std::optional<Eigen::Vector3f> position = edge_position(c);
       if (!position) continue;
       // The edge lies anywhere between two beams: uniform, so a spacing over sqrt(12).
-      edges.push_back({*position, table_.intensity(c.index), Eigen::Vector3f::Zero(), 0.289F * c.step.norm(),
+      edges.push_back({*position, table_.intensity(c.index), Eigen::Vector3f::Zero(), 0.289F * (c.step ? c.step->norm() : 0.0F),
                        seconds(c.index), ring});
       const int first = std::max(table_.run_begin(c.index), c.index - c.half_window);
       const int last = std::min(table_.run_end(c.index) - 1, c.index + c.half_window);
@@ -255,10 +250,10 @@ class Extraction {
 
   /// A crease narrower than the window (a door frame's) shows in half or a quarter of it.
   std::optional<Eigen::Vector3f> edge_position(const EdgeCandidate& c) const {
-    if (!c.step.isZero()) return table_.position(c.index) + 0.5F * c.step;
+    if (c.step) return table_.position(c.index) + 0.5F * *c.step;
     std::optional<Eigen::Vector3f> position;
     for (int n = c.half_window; n >= kLeastHalfWindow && !position; n /= 2) {
-      position = fit_crease(table_, c.index, n, range_sigma_, origin_);
+      position = fit_crease(table_, c.index, n, range_sigma_);
     }
     return position;
   }
@@ -293,7 +288,7 @@ class Extraction {
     const Eigen::Vector3f normal = shape(i).tangent.cross(across);
     const float length = normal.norm();
     if (length < 0.3F * across.norm() || length <= 0.0F) return Eigen::Vector3f::Zero();
-    const float towards = normal.dot(beam(i)) / length;
+    const float towards = normal.dot(table_.beam(i)) / length;
     if (std::abs(towards) < kGrazing) return Eigen::Vector3f::Zero();
     return (towards > 0.0F ? -1.0F : 1.0F) / length * normal;
   }
@@ -318,15 +313,13 @@ class Extraction {
 
   const RingTable& table_;
   float range_sigma_;
-  Eigen::Vector3f origin_;
   std::vector<Shape> shapes_;
 };
 
 }  // namespace
 
-FeatureCloud extract_features(const LidarScan& scan, const std::vector<Eigen::Vector3f>& points_in_body,
-                              const Calibration& calibration) {
-  const RingTable table(scan, points_in_body, calibration);
+FeatureCloud extract_features(const LidarScan& scan, const DeskewedScan& deskewed, const Calibration& calibration) {
+  const RingTable table(scan, deskewed, calibration);
   const Extraction extraction(table, calibration);
   return {extraction.edges(), extraction.planes()};
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "estimator/geometry/pose.h"
+#include "estimator/lidar/deskew.h"
 #include "estimator/messages.h"
 
 namespace plumbline {
@@ -29,9 +30,8 @@ void move(FeatureCloud& features, const Pose& target_from_source, float later_s)
 
 /// Curvature-based extraction per ring with all rejection rules: taken neighbours, occlusion edges, grazing surfaces.
 /// Planes are dense but evenly spread: the mean of the planar points of each small cell of space.
-/// @param scan             raw; gives ring, order and beam geometry
-/// @param points_in_body   the same points de-skewed, as deskew() returns them
-FeatureCloud extract_features(const LidarScan& scan, const std::vector<Eigen::Vector3f>& points_in_body,
-                              const Calibration& calibration);
+/// @param scan      raw; gives ring, order and beam geometry
+/// @param deskewed  the same scan
+FeatureCloud extract_features(const LidarScan& scan, const DeskewedScan& deskewed, const Calibration& calibration);
 
 }  // namespace plumbline

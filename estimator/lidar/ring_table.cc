@@ -15,9 +15,8 @@ constexpr float kMissingBeams = 3.0F;
 
 }  // namespace
 
-RingTable::RingTable(const LidarScan& scan, const std::vector<Eigen::Vector3f>& points_in_body,
-                     const Calibration& calibration) {
-  sort_by_ring(scan, points_in_body, calibration);
+RingTable::RingTable(const LidarScan& scan, const DeskewedScan& deskewed, const Calibration& calibration) {
+  sort_by_ring(scan, deskewed, calibration);
   measure_rings();
   lines_in_turn_ = follow_each_other();
   timed_ = std::any_of(entries_.begin(), entries_.end(),
@@ -28,17 +27,16 @@ RingTable::RingTable(const LidarScan& scan, const std::vector<Eigen::Vector3f>& 
   for (const Entry& e : entries_) sums_.emplace_back(sums_.back() + e.position.cast<double>());
 }
 
-void RingTable::sort_by_ring(const LidarScan& scan, const std::vector<Eigen::Vector3f>& points_in_body,
-                             const Calibration& calibration) {
+void RingTable::sort_by_ring(const LidarScan& scan, const DeskewedScan& deskewed, const Calibration& calibration) {
   const auto ring_count = static_cast<std::size_t>(std::max(1, calibration.lidar_rings));
-  const std::size_t count = std::min(scan.points.size(), points_in_body.size());
+  const std::size_t count = std::min(scan.points.size(), deskewed.points.size());
   std::vector<float> ranges(count, -1.0F);
   begin_.assign(ring_count + 1, 0);
   for (std::size_t i = 0; i < count; ++i) {
     const float range = scan.points[i].position.norm();
     const bool usable = range >= static_cast<float>(calibration.lidar_min_range_m) &&
                         range <= static_cast<float>(calibration.lidar_max_range_m) &&
-                        scan.points[i].ring < ring_count && points_in_body[i].allFinite();
+                        scan.points[i].ring < ring_count && deskewed.points[i].allFinite();
     if (!usable) continue;
     ranges[i] = range;
     ++begin_[scan.points[i].ring + 1U];
@@ -50,7 +48,8 @@ void RingTable::sort_by_ring(const LidarScan& scan, const std::vector<Eigen::Vec
     if (ranges[i] < 0.0F) continue;
     const LidarPoint& point = scan.points[i];
     Entry& e = entries_[static_cast<std::size_t>(next[point.ring]++)];
-    e.position = points_in_body[i];
+    e.position = deskewed.points[i];
+    e.beam = (e.position - deskewed.origin(point.offset_ns)).normalized();
     e.direction = point.position / ranges[i];
     e.range = ranges[i];
     e.intensity = point.intensity;

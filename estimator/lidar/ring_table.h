@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "estimator/lidar/deskew.h"
 #include "estimator/messages.h"
 
 namespace plumbline {
@@ -12,7 +13,7 @@ namespace plumbline {
 /// sums from which the mean over any window costs the same. All indices are positions in the table.
 class RingTable {
  public:
-  RingTable(const LidarScan& scan, const std::vector<Eigen::Vector3f>& points_in_body, const Calibration& calibration);
+  RingTable(const LidarScan& scan, const DeskewedScan& deskewed, const Calibration& calibration);
 
   int size() const { return static_cast<int>(entries_.size()); }
   int ring_count() const { return static_cast<int>(begin_.size()) - 1; }
@@ -30,6 +31,8 @@ class RingTable {
   int ring_across(int ring, int direction) const;
 
   const Eigen::Vector3f& position(int i) const { return entry(i).position; }
+  /// Of the beam, unit, in B, from where the lidar stood when it measured the return.
+  const Eigen::Vector3f& beam(int i) const { return entry(i).beam; }
   /// Of the beam, unit, in L at its own time.
   const Eigen::Vector3f& direction(int i) const { return entry(i).direction; }
   float range(int i) const { return entry(i).range; }
@@ -50,6 +53,7 @@ class RingTable {
  private:
   struct Entry {
     Eigen::Vector3f position;   // de-skewed, in B
+    Eigen::Vector3f beam;       // of the beam, in B
     Eigen::Vector3f direction;  // of the beam, in L at its own time
     float range = 0.0F;         // as measured
     float intensity = 0.0F;
@@ -63,8 +67,7 @@ class RingTable {
   };
 
   const Entry& entry(int i) const { return entries_[static_cast<std::size_t>(i)]; }
-  void sort_by_ring(const LidarScan& scan, const std::vector<Eigen::Vector3f>& points_in_body,
-                    const Calibration& calibration);
+  void sort_by_ring(const LidarScan& scan, const DeskewedScan& deskewed, const Calibration& calibration);
   void measure_rings();
   bool follow_each_other() const;
   void cut_runs();

@@ -75,9 +75,9 @@ void LocalizedEstimator::stack(const LidarScan& part) {
   if (!sweep || !track_.covers(sweep->stamp_ns) || !track_.covers(sweep->end_ns)) return;
   if (last_match_ns_ && sweep->end_ns - newest_scan_ns_ < kLeastInterval_ns) return;
   const StopWatch watch;
-  const auto points_in_body = deskew(*sweep, track_, calibration_.body_from_lidar, sweep->end_ns);
+  const DeskewedScan deskewed = deskew(*sweep, track_, calibration_.body_from_lidar, sweep->end_ns);
   const Pose pose = track_.at(sweep->end_ns);
-  stack_.add(sweep->end_ns, extract_features(*sweep, points_in_body, calibration_), pose);
+  stack_.add(sweep->end_ns, extract_features(*sweep, deskewed, calibration_), pose);
   newest_scan_ns_ = sweep->end_ns;
   if (!last_match_ns_) last_match_ns_ = sweep->stamp_ns;
   stacking_s_ += watch.seconds();

@@ -151,12 +151,12 @@ void Demo::use(const LidarScan& scan) {
     return gate_.drop(Module::kLidar, "before the start");
   }
   gate_.count_used(Module::kLidar);
-  const auto points_in_body = deskew(scan, odometry_, calibration_.body_from_lidar, scan.end_ns);
-  vision_.add_depth_points(scan.end_ns, points_in_body, odometry_.at(scan.end_ns));
+  const DeskewedScan deskewed = deskew(scan, odometry_, calibration_.body_from_lidar, scan.end_ns);
+  vision_.add_depth_points(scan.end_ns, deskewed.points, odometry_.at(scan.end_ns));
   if (stages_.sweep_refinement) return refine_with_sweep(scan);
   if (!stages_.scan_matching) return;
   const StopWatch watch;
-  const FeatureCloud features = extract_features(scan, points_in_body, calibration_);
+  const FeatureCloud features = extract_features(scan, deskewed, calibration_);
   match(features, scan.end_ns, integration_.world_from_body(odometry_.at(scan.end_ns)), watch.seconds());
 }
 

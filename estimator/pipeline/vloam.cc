@@ -160,19 +160,19 @@ void Vloam::handle(const LidarScan& scan) {
   const StopWatch watch;
   // What is matched corrects the state as it is now, so that a scan that came late is brought here by the motion since.
   const std::int64_t now_ns = filter_->state().stamp_ns;
-  const auto points_in_body = deskew(scan, track_, calibration_.body_from_lidar, now_ns);
+  const DeskewedScan deskewed = deskew(scan, track_, calibration_.body_from_lidar, now_ns);
   if (config_.lidar_enabled) {
     const std::optional<LidarScan> sweep = sweeps_.add(scan);
     const bool in_parts = sweep && sweep->points.size() != scan.points.size();
     if (in_parts && track_.covers(sweep->stamp_ns)) {
       refine_with_scan(*sweep, deskew(*sweep, track_, calibration_.body_from_lidar, now_ns));
     } else if (sweep && !in_parts) {
-      refine_with_scan(scan, points_in_body);
+      refine_with_scan(scan, deskewed);
     }
   }
 
   const Pose world_from_body = track_.at(now_ns);
-  if (config_.vision_enabled) vision_.add_depth_points(scan.end_ns, points_in_body, world_from_body);
+  if (config_.vision_enabled) vision_.add_depth_points(scan.end_ns, deskewed.points, world_from_body);
   if (!health_.empty() && health_.back().module == Module::kLidar) health_.back().processing_s = watch.seconds();
 }
 
@@ -200,8 +200,8 @@ SolveResult Vloam::match(const FeatureCloud& features, const Pose& map_from_body
   return solved;
 }
 
-void Vloam::refine_with_scan(const LidarScan& scan, const std::vector<Eigen::Vector3f>& points_in_body) {
-  const FeatureCloud features = extract_features(scan, points_in_body, calibration_);
+void Vloam::refine_with_scan(const LidarScan& scan, const DeskewedScan& deskewed) {
+  const FeatureCloud features = extract_features(scan, deskewed, calibration_);
   const Pose predicted = filter_->map_from_body();
   const std::optional<std::int64_t> image_ns = followed_ns_;
   const SolveResult solved = match(features, predicted);

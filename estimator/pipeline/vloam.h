@@ -53,7 +53,7 @@ class Vloam final : public Estimator {
   void see(const Frame& frame);
   SolveResult match(const FeatureCloud& features, const Pose& map_from_body);
   void start_keyframe_when_due(std::int64_t image_ns);
-  void refine_with_scan(const LidarScan& scan, const std::vector<Eigen::Vector3f>& points_in_body);
+  void refine_with_scan(const LidarScan& scan, const DeskewedScan& deskewed);
   void renew_map(const Eigen::Vector3d& step_in_body);
   /// Lets an update act, and moves the recent track with it, so that the track's inner shape stays the IMU's.
   template <typename Update>

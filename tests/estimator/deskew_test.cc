@@ -26,7 +26,7 @@ PoseTrack imu_track(double from_s, double to_s) {
 double worst_distance_to_walls(const LidarScan& scan, const PoseTrack& track, std::int64_t reference_ns) {
   const testing::BoxWorld world = testing::furnished_room();
   double worst = 0.0;
-  for (const Eigen::Vector3f& p : deskew(scan, track, kBodyFromLidar, reference_ns)) {
+  for (const Eigen::Vector3f& p : deskew(scan, track, kBodyFromLidar, reference_ns).points) {
     worst = std::max(worst, world.distance(hard_turn(1e-9 * static_cast<double>(reference_ns)) * p.cast<double>()));
   }
   return worst;
@@ -49,12 +49,27 @@ TEST(Deskew, OfAScanAtRestOnlyAppliesTheExtrinsics) {
   const LidarScan scan = vlp16_scan(testing::furnished_room(), rest, 0, kBodyFromLidar, 0.0, noise);
   PoseTrack track;
   track.push(0, {});
-  const auto points = deskew(scan, track, kBodyFromLidar, scan.end_ns);
+  const auto points = deskew(scan, track, kBodyFromLidar, scan.end_ns).points;
   ASSERT_EQ(points.size(), scan.points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3d expected = kBodyFromLidar * scan.points[i].position.cast<double>();
     EXPECT_LT((points[i].cast<double>() - expected).norm(), 1e-5);
   }
+}
+
+TEST(Deskew, KnowsWhereTheLidarStood) {
+  LidarScan scan;
+  scan.end_ns = 100'000'000;
+  const DeskewedScan deskewed = deskew(scan, imu_track(0.0, 0.3), kBodyFromLidar, scan.end_ns);
+  const Pose end_from_world = hard_turn(0.1).inverse();
+  for (const std::int64_t offset : {0, 33'333'333, 100'000'000}) {
+    const Pose then = hard_turn(1e-9 * static_cast<double>(offset));
+    const Eigen::Vector3d expected = (end_from_world * then * kBodyFromLidar).translation;
+    // As above, with a lever arm in place of the range.
+    EXPECT_LT((deskewed.origin(offset).cast<double>() - expected).norm(), 1e-4) << offset;
+  }
+  EXPECT_EQ(deskewed.origin(-5), deskewed.origin(0));
+  EXPECT_TRUE(deskewed.origin(2'000'000'000).allFinite());
 }
 
 TEST(Deskew, HoldsStampsOutsideTheScanAtItsEnds) {
@@ -67,8 +82,8 @@ TEST(Deskew, HoldsStampsOutsideTheScanAtItsEnds) {
     point.offset_ns = offset;
     scan.points.push_back(point);
   }
-  for (const auto& p : deskew(scan, imu_track(0.0, 0.3), {}, 0)) EXPECT_TRUE(p.allFinite());
-  EXPECT_TRUE(deskew(LidarScan{}, imu_track(0.0, 0.1), {}, 0).empty());
+  for (const auto& p : deskew(scan, imu_track(0.0, 0.3), {}, 0).points) EXPECT_TRUE(p.allFinite());
+  EXPECT_TRUE(deskew(LidarScan{}, imu_track(0.0, 0.1), {}, 0).points.empty());
 }
 
 }  // namespace
