@@ -1,5 +1,6 @@
 #include "estimator/pipeline/vloam.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -14,9 +15,11 @@ constexpr std::int64_t kTrackLength_ns = MessageGate::kLongestDelay_ns + SweepAs
 constexpr std::int64_t kTurnTrackLength_ns = 3'000'000'000;  // longer than a key-frame lasts while its tracks do
 constexpr std::int64_t kIncrementWindow_ns = 1'000'000'000;
 
-// A solution's rows share errors that whitening does not know: features of one key-frame share its depth errors over
-// dozens of frames. Those of scan matching are the map's (see InertialFilter and MatchDrift).
-constexpr double kVisionInflation = 25.0;
+// A solution's rows share errors that whitening does not know. Those of vision, hundredths of a pixel that tracks and
+// depths of one scene have in common, keep their sign over many key-frames: the images of a second together say no more
+// than one of them. (Errors of the turn against the truth lasted from one to several seconds.)
+constexpr double kVisionMemory_s = 1.0;
+// Those of scan matching are the map's (see InertialFilter and MatchDrift).
 constexpr double kLidarInflation = 1.0;
 
 /// Without an IMU its samples are a clock: no rate, no force, and "biases" free enough to be the motion itself, which
@@ -77,6 +80,7 @@ void Vloam::start_with(const InitialState& start, const ImuSample& sample) {
   track_.push(sample.stamp_ns, initial.state.world_from_body);
   turn_track_.push(sample.stamp_ns, {});
   keyframe_ns_ = sample.stamp_ns;
+  last_image_ns_ = sample.stamp_ns;
   past_ns_ = sample.stamp_ns;
   gate_.start_at(sample.stamp_ns);
 }
@@ -129,9 +133,14 @@ void Vloam::see(const Frame& frame) {
     return;
   }
   const SolveResult solved = vision_.process(frame, prior);
-  correct([&] { filter_->update_keyframe_motion(solved, predicted, kVisionInflation); });
+  correct([&] { filter_->update_keyframe_motion(solved, predicted, vision_inflation(frame.stamp_ns)); });
   start_keyframe_when_due(frame.stamp_ns);
   report(frame.stamp_ns, Module::kVision, solved, predicted, watch.seconds());
+}
+
+double Vloam::vision_inflation(std::int64_t image_ns) {
+  const std::int64_t last_ns = std::exchange(last_image_ns_, image_ns);
+  return std::max(1.0, kVisionMemory_s / std::max(1e-3, seconds_between(last_ns, image_ns)));
 }
 
 void Vloam::start_keyframe_when_due(std::int64_t image_ns) {

@@ -52,6 +52,8 @@ class Vloam final : public Estimator {
   template <typename Frame>
   void see(const Frame& frame);
   SolveResult match(const FeatureCloud& features, const Pose& map_from_body);
+  /// Of the newest solution's covariance, for errors that it shares with those before it.
+  double vision_inflation(std::int64_t image_ns);
   void start_keyframe_when_due(std::int64_t image_ns);
   void refine_with_scan(const LidarScan& scan, const DeskewedScan& deskewed);
   void renew_map(const Eigen::Vector3d& step_in_body);
@@ -78,6 +80,7 @@ class Vloam final : public Estimator {
   Eigen::Quaterniond turned_ = Eigen::Quaterniond::Identity();  ///< since the start, by the gyroscope alone
   PoseTrack turn_track_;                                        ///< of turned_
   std::int64_t keyframe_ns_ = 0;
+  std::int64_t last_image_ns_ = 0;
   std::optional<std::int64_t> followed_ns_;  ///< stamp of the newest image, while no scan has solved its rows
   double path_m_ = 0.0;
   bool has_map_ = false;
