@@ -5,7 +5,7 @@
 #include "scenarios/scenario.h"
 #include "tools/commands/command.h"
 #include "tools/exit_code.h"
-#include "tools/output/build_info.h"
+#include "tools/output/provenance.h"
 
 namespace plumbline {
 namespace {
@@ -17,7 +17,7 @@ int complain(const std::string& what, ExitCode code) {
 
 int run_program(int argc, char** argv) {
   CLI::App app("A proving ground for lidar-visual-inertial odometry", "plumbline");
-  app.set_version_flag("--version", kVersion);
+  app.set_version_flag("--version", program_version());
   app.require_subcommand(1);
   Action chosen;
   add_calibrate_command(app, chosen);
