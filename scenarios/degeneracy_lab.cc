@@ -240,8 +240,8 @@ class Lab {
         add_plane_row(plane.point_in_body, surface, pose, sigma_m, rows);
       }
     };
-    // As matching does it: along a direction that the selected points leave open the guess stays, where forcing it would
-    // run away by metres.
+    // As matching does it: along a direction that the selected points leave open the guess stays, where forcing it
+    // would run away by metres.
     SolverOptions options;
     options.degeneracy_threshold = ScanMatcherConfig{}.degeneracy_threshold;
     const SolveResult solved = solve(guess_near(world_from_body), std::nullopt, linearize, options);

@@ -20,7 +20,7 @@ struct DeskewedScan {
 };
 
 /// @param world_from_body  the predicted motion; must cover the scan
-DeskewedScan deskew(const LidarScan& scan, const PoseTrack& world_from_body,
-                                    const Pose& body_from_lidar, std::int64_t reference_ns);
+DeskewedScan deskew(const LidarScan& scan, const PoseTrack& world_from_body, const Pose& body_from_lidar,
+                    std::int64_t reference_ns);
 
 }  // namespace plumbline

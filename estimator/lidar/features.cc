@@ -239,8 +239,8 @@ class Extraction {
       const std::optional<Eigen::Vector3f> position = edge_position(c);
       if (!position) continue;
       // The edge lies anywhere between two beams: uniform, so a spacing over sqrt(12).
-      edges.push_back({*position, table_.intensity(c.index), Eigen::Vector3f::Zero(), 0.289F * (c.step ? c.step->norm() : 0.0F),
-                       seconds(c.index), ring});
+      edges.push_back({*position, table_.intensity(c.index), Eigen::Vector3f::Zero(),
+                       0.289F * (c.step ? c.step->norm() : 0.0F), seconds(c.index), ring});
       const int first = std::max(table_.run_begin(c.index), c.index - c.half_window);
       const int last = std::min(table_.run_end(c.index) - 1, c.index + c.half_window);
       for (int i = first; i <= last; ++i) taken[static_cast<std::size_t>(i)] = true;

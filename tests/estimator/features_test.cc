@@ -94,9 +94,9 @@ TEST(Features, OfAnOcclusionOnlyTheNearSideIsAnEdge) {
   EXPECT_GE(near_side, 28);  // both borders in (nearly) every ring
 }
 
-/// A lidar in a fast car stands metres from where it will stand at the sweep's end. What a beam passed, and which side of
-/// a surface it met, follows from where it was fired: seen from the end of the sweep, borders lay beside the pillars or
-/// were taken for creases across the gap, and faces that the car had passed turned their backs.
+/// A lidar in a fast car stands metres from where it will stand at the sweep's end. What a beam passed, and which side
+/// of a surface it met, follows from where it was fired: seen from the end of the sweep, borders lay beside the pillars
+/// or were taken for creases across the gap, and faces that the car had passed turned their backs.
 TEST(Features, WhatIsPassedAtSpeedIsSeenFromWhereTheBeamsWereFired) {
   const testing::Motion motion = [](double t) { return Pose{Eigen::Quaterniond::Identity(), {30.0 * t, 0.0, 0.0}}; };
   BoxWorld world;

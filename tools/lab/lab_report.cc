@@ -58,7 +58,8 @@ Drawing roc_chart(const std::vector<DetectorScore>& scores) {
 
 std::string detector_table(const std::vector<DetectorScore>& scores) {
   std::string html =
-      "<div class=\"wide\"><table><thead><tr><th>detector</th><th>area under ROC</th><th>threshold</th><th>margin</th>"
+      "<div class=\"card scroll wide\"><table><thead><tr><th>detector</th><th>area under "
+      "ROC</th><th>threshold</th><th>margin</th>"
       "<th>found [%]</th><th>false alarms [%]</th><th>angle [°]</th><th>latency [scans]</th></tr></thead><tbody>";
   const auto percent = [](const std::optional<double>& share) {
     return share ? std::optional(100.0 * *share) : std::nullopt;
@@ -107,7 +108,8 @@ std::string mitigation_table(const std::vector<MitigationFigures>& mitigations) 
   std::string html =
       "<h2>Mitigations</h2><p class=\"note\">Scan matching alone, from a prediction with the errors of dead reckoning "
       "(1 % of the way and a few millimetres a scan): medians over the runs in which some scan is degenerate, and over "
-      "the others.</p><div class=\"wide\"><table><thead><tr><th>mitigation</th><th>drift where degenerate [%]</th>"
+      "the others.</p><div class=\"card scroll wide\"><table><thead><tr><th>mitigation</th><th>drift where degenerate "
+      "[%]</th>"
       "<th>progress ratio there</th><th>drift elsewhere [%]</th><th>progress ratio there</th></tr></thead><tbody>";
   for (const MitigationFigures& one : mitigations) {
     html += "<tr><td>" + escape_markup(one.mitigation) + "</td><td>" + shown(one.degenerate_drift_percent) +
@@ -185,8 +187,9 @@ std::string lab_section(const LabFindings& findings, std::vector<Drawing>& chart
             std::to_string(findings.registration.scans) + " well-determined scans).";
   }
   charts.push_back(roc_chart(findings.detectors));
-  return "<h2>Degeneracy detectors</h2><p class=\"note\">" + escape_markup(note) + "</p>" + figure_html(charts.back()) +
-         detector_table(findings.detectors) + mitigation_table(findings.mitigations);
+  return "<h2>Degeneracy detectors</h2><p class=\"note\">" + escape_markup(note) + "</p><div class=\"pair\">" +
+         figure_html(charts.back()) + "</div>" + detector_table(findings.detectors) +
+         mitigation_table(findings.mitigations);
 }
 
 }  // namespace plumbline

@@ -4,8 +4,10 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <set>
 
 #include "tools/report/heat_map.h"
+#include "tools/report/point_chart.h"
 
 namespace plumbline {
 namespace {
@@ -75,6 +77,28 @@ TEST(SweepReport, EveryChartIsADocumentOfItsOwn) {
     EXPECT_TRUE(contains(svg, "<style>")) << chart.name;
     EXPECT_EQ(chart.name.find_first_of("/. "), std::string::npos) << chart.name;
   }
+}
+
+/// Whole mappings as settings of an axis ran into one smear beneath it.
+TEST(SweepReport, SettingsInWordsHaveRowsOfTheirOwn) {
+  PointChart chart;
+  chart.joined = false;
+  chart.series.push_back({"vloam", "c0", {}});
+  for (int i = 0; i < 12; ++i) {
+    const std::string words = "{scene: \"hall <" + std::to_string(10 + i) + ">\", parameters: {column_spacing_m: 4}}";
+    chart.ticks.push_back({static_cast<double>(i), words});
+    chart.series[0].points.push_back({static_cast<double>(i), {0.5, 0.4, 0.6}});
+  }
+  const Drawing drawing = point_chart(chart);
+  std::set<std::string> heights;
+  for (int i = 0; i < 12; ++i) {
+    const std::size_t at = drawing.body.find(">scene: hall &lt;" + std::to_string(10 + i));
+    ASSERT_NE(at, std::string::npos) << i;
+    const std::size_t y = drawing.body.rfind(" y=\"", at);
+    heights.insert(drawing.body.substr(y, drawing.body.find('"', y + 4) - y));
+  }
+  EXPECT_EQ(heights.size(), 12U);
+  EXPECT_GE(drawing.height, 12.0 * 13.0) << "a row is as high as its letters";
 }
 
 TEST(SweepReport, NeedsNothingFromOutsideAndEscapesWhatItWasGiven) {
