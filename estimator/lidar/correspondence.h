@@ -9,6 +9,14 @@
 /// From map points around a feature to the line or plane that it should lie on, and the rows of that constraint.
 namespace plumbline {
 
+/// Two range errors meet in a residual, the scan's and the map's. Below two centimetres the map's own errors (cells that
+/// straddle a crease, curved surfaces, de-skewing) outweigh the lidar's noise.
+inline constexpr double kLeastMatchSigma_m = 0.02;
+/// Ten cells around a point of a wall span 0.8 m and average the noise of its normal; edges need a few more, since the
+/// neighbours of one line mix with those of the next.
+inline constexpr int kPlaneNeighbours = 10;
+inline constexpr int kLineNeighbours = 16;
+
 /// The plane { x : normal . x = offset } in W.
 struct MapPlane {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();

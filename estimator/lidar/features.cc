@@ -9,6 +9,7 @@
 #include "estimator/lidar/crease.h"
 #include "estimator/lidar/facing_side.h"
 #include "estimator/lidar/flat_index.h"
+#include "estimator/lidar/poles.h"
 #include "estimator/lidar/ring_table.h"
 
 namespace plumbline {
@@ -83,6 +84,18 @@ class Extraction {
       }
     }
     return edges;
+  }
+
+  /// Onto the edges: to matching, a pole's axis is a line as a crease is.
+  void add_poles(std::vector<FeaturePoint>& edges) const {
+    for (int r = 0; r < table_.ring_count(); ++r) {
+      for (int i = table_.ring_begin(r); i < table_.ring_end(r); i = table_.run_end(i)) {
+        const auto pole = pole_of_run(table_, r, i, table_.run_end(i), range_sigma_);
+        if (!pole) continue;
+        edges.push_back({pole->axis_point, table_.intensity(pole->index), Eigen::Vector3f::Zero(), pole->spread_m,
+                         seconds(pole->index), r});
+      }
+    }
   }
 
   std::vector<FeaturePoint> planes() const {
@@ -321,7 +334,9 @@ class Extraction {
 FeatureCloud extract_features(const LidarScan& scan, const DeskewedScan& deskewed, const Calibration& calibration) {
   const RingTable table(scan, deskewed, calibration);
   const Extraction extraction(table, calibration);
-  return {extraction.edges(), extraction.planes()};
+  FeatureCloud cloud{extraction.edges(), extraction.planes()};
+  extraction.add_poles(cloud.edges);
+  return cloud;
 }
 
 void move(FeatureCloud& features, const Pose& target_from_source, float later_s) {

@@ -13,21 +13,12 @@
 namespace plumbline {
 namespace {
 
-// Two range errors meet in a residual, the scan's and the map's. Below two centimetres the map's own errors (cells that
-// straddle a crease, curved surfaces, de-skewing) outweigh the lidar's noise.
-constexpr double kLeastSigma_m = 0.02;
-
 // Neighbours are looked for within a metre, or as far as two rings 2 degrees apart lie at the feature's range.
 constexpr double kLeastReach_m = 1.0;
 constexpr double kLargestReach_m = 1.5;
 constexpr double kReachPerRange = 0.07;
 
 constexpr double kLeastRange_m = 0.5;  // nearer features would let a beam turn without bound
-
-// Ten cells around a point of a wall span 0.8 m and average the noise of its normal; edges need a few more, since the
-// neighbours of one line mix with those of the next.
-constexpr int kPlaneNeighbours = 10;
-constexpr int kLineNeighbours = 16;
 
 // Correspondences are found anew only when the pose has moved this far since: searching is nearly all of a match's
 // cost, and planes a decimetre apart on one surface are the same plane.
@@ -82,7 +73,7 @@ std::vector<FeaturePoint> every_nth(const std::vector<FeaturePoint>& from, int b
 struct ScanMatcher::Impl {
   Impl(const Calibration& calibration, const ScanMatcherConfig& settings, bool remap)
       : config(settings),
-        sigma_m(std::max(kLeastSigma_m, std::sqrt(2.0) * calibration.lidar_range_sigma_m)),
+        sigma_m(std::max(kLeastMatchSigma_m, std::sqrt(2.0) * calibration.lidar_range_sigma_m)),
         bias_sigma_m(kBiasShare * calibration.lidar_range_sigma_m),
         body_from_lidar(calibration.body_from_lidar),
         edges(settings.coarse_voxel_m, settings.edge_resolution_m),

@@ -13,9 +13,6 @@
 namespace plumbline {
 namespace {
 
-constexpr double kLeastSigma_m = 0.02;  // as in scan matching
-constexpr int kPlaneNeighbours = 10;
-constexpr int kLineNeighbours = 16;
 constexpr int kPlaneBudget = 1200;
 constexpr int kEdgeBudget = 200;
 constexpr int kLeastFeatures = 50;
@@ -25,16 +22,16 @@ constexpr double kDegeneracyThreshold = 5000.0;
 
 // Neighbours are looked for as far as two lines 4.5 degrees apart lie at the feature's range, and further by what the
 // prediction may be wrong; that part shrinks from one search to the next.
-constexpr double kLeastReach_m = 1.0;
-constexpr double kLargestReach_m = 2.0;
-constexpr double kReachPerRange = 0.1;
+constexpr double kLeastLineReach_m = 1.0;
+constexpr double kLargestLineReach_m = 2.0;
+constexpr double kLineReachPerRange = 0.1;
 constexpr double kLargestDoubt_m = 4.0;
 constexpr double kCoarseDoubt_m = 0.1;
 constexpr double kUnitNoiseMad = 0.6745;
 
 double reach_of(const FeaturePoint& feature, double doubt_m) {
   const double range = feature.position.cast<double>().norm();
-  return doubt_m + std::clamp(kReachPerRange * range, kLeastReach_m, kLargestReach_m);
+  return doubt_m + std::clamp(kLineReachPerRange * range, kLeastLineReach_m, kLargestLineReach_m);
 }
 
 std::vector<MapSample> samples_of(const std::vector<FeaturePoint>& features) {
@@ -162,7 +159,7 @@ Pose linear_share(const Pose& corrected, const Pose& predicted, double share) {
 }
 
 SweepOdometry::SweepOdometry(const Calibration& calibration, bool remapping)
-    : sigma_m_(std::max(kLeastSigma_m, std::sqrt(2.0) * calibration.lidar_range_sigma_m)),
+    : sigma_m_(std::max(kLeastMatchSigma_m, std::sqrt(2.0) * calibration.lidar_range_sigma_m)),
       map_sigma_m_(0.5 * calibration.lidar_range_sigma_m),
       remapping_(remapping) {}
 

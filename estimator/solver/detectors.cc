@@ -27,7 +27,6 @@ Matrix6d information(const std::vector<MatchRow>& rows, const std::function<doub
   return sum;
 }
 
-double whitened(const MatchRow& row) { return row.weight / (row.sigma_m * row.sigma_m); }
 double robust(const MatchRow& row) { return row.weight; }
 
 void sort(Detection& detection) {
@@ -86,16 +85,16 @@ Detection of_blocks(const Block& rotation, const Block& translation,
 
 Detection imce(const std::vector<MatchRow>& rows) {
   double squares = 0.0;
-  for (const MatchRow& row : rows) squares += whitened(row) * row.residual_m * row.residual_m;
+  for (const MatchRow& row : rows) squares += row.whitened_weight() * row.residual_m * row.residual_m;
   const double variance = squares / static_cast<double>(rows.size() - kLeastRows + 1);
-  return of_eigenpairs(information(rows, whitened),
+  return of_eigenpairs(information(rows, &MatchRow::whitened_weight),
                        [&](double value, const Vector6d&) { return value / std::max(variance, kTiny); });
 }
 
 Detection sub_block(const std::vector<MatchRow>& rows) {
   double mean_range_m = 0.0;
   for (const MatchRow& row : rows) mean_range_m += row.point.norm() / static_cast<double>(rows.size());
-  const Matrix6d h = information(rows, whitened);
+  const Matrix6d h = information(rows, &MatchRow::whitened_weight);
   const double range_squared = std::max(kTiny, mean_range_m * mean_range_m);
   return of_blocks(h.topLeftCorner<3, 3>() / range_squared, h.bottomRightCorner<3, 3>(),
                    [](Part, double value, double, const Eigen::Vector3d&) { return value; });
@@ -194,12 +193,12 @@ Detection drpm(const std::vector<MatchRow>& rows, double range_sigma_m) {
     b.bottomRightCorner<3, 3>().setIdentity();
     return b * noise * b.transpose();
   };
-  const Matrix6d h = information(rows, whitened);
+  const Matrix6d h = information(rows, &MatchRow::whitened_weight);
   return of_eigenpairs(h, [&](double value, const Vector6d& u) {
     double mean = 0.0;
     double variance = 0.0;
     for (const MatchRow& row : rows) {
-      const double w = whitened(row);
+      const double w = row.whitened_weight();
       const double a = w * u.dot(covariance_of(row) * u);
       const double b = u.dot(row.jacobian()) * std::sqrt(w);
       mean += a;
@@ -265,11 +264,12 @@ Detection detect(Detector detector, const std::vector<MatchRow>& rows, double ra
   if (!usable(rows)) return none(detector);
   switch (detector) {
     case Detector::kD:
-      return of_eigenpairs(information(rows, whitened), [](double value, const Vector6d&) { return value + 1.0; });
+      return of_eigenpairs(information(rows, &MatchRow::whitened_weight),
+                           [](double value, const Vector6d&) { return value + 1.0; });
     case Detector::kImce:
       return imce(rows);
     case Detector::kIcn: {
-      const Matrix6d h = information(rows, whitened);
+      const Matrix6d h = information(rows, &MatchRow::whitened_weight);
       const double largest = largest_eigenvalue(h);
       return of_eigenpairs(h, [&](double value, const Vector6d&) { return std::sqrt(value / largest); });
     }

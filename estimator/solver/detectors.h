@@ -20,6 +20,8 @@ struct MatchRow {
 
   /// The residual's derivative by a right perturbation of world_from_body: [p x n; n].
   Vector6d jacobian() const;
+  /// What the row weighs in a sum of squares [1/m^2].
+  double whitened_weight() const { return weight / (sigma_m * sigma_m); }
 };
 
 enum class Detector {

@@ -13,19 +13,17 @@ namespace {
 // stiffness is given here in units of a row of 2 cm.
 constexpr double kStiffness = 440.0 / (0.02 * 0.02);
 constexpr double kLargestWeakStep = 0.0014;
-constexpr double kTiny = 1e-9;
+constexpr double kNoInformation = 1e-9;
 
 struct Problem {
   Matrix6d information = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
 };
 
-double whitened(const MatchRow& row) { return row.weight / (row.sigma_m * row.sigma_m); }
-
 Problem problem_of(const std::vector<MatchRow>& rows) {
   Problem problem;
   for (const MatchRow& row : rows) {
-    const Vector6d v = whitened(row) * row.jacobian();
+    const Vector6d v = row.whitened_weight() * row.jacobian();
     problem.information.noalias() += v * row.jacobian().transpose();
     problem.gradient += row.residual_m * v;
   }
@@ -39,7 +37,7 @@ Vector6d by_eigenpairs(const Problem& problem, Coefficient coefficient) {
   Vector6d step = Vector6d::Zero();
   for (int i = 0; i < 6; ++i) {
     const double value = eigen.eigenvalues()[i];
-    if (value < kTiny) continue;
+    if (value < kNoInformation) continue;
     const Vector6d u = eigen.eigenvectors().col(i);
     step += coefficient(value, -u.dot(problem.gradient) / value, u) * u;
   }
@@ -58,7 +56,7 @@ Vector6d drpm_step(const Problem& problem, const std::vector<MatchRow>& rows, do
     const Vector6d& u = detection.directions[i];
     const double value = u.dot(problem.information * u);
     const double probability = 0.5 * std::erfc(-detection.scores[i] / std::numbers::sqrt2);
-    if (value > kTiny) step -= probability * u.dot(problem.gradient) / value * u;
+    if (value > kNoInformation) step -= probability * u.dot(problem.gradient) / value * u;
   }
   return step;
 }

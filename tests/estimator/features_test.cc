@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "estimator/lidar/deskew.h"
@@ -76,6 +77,53 @@ TEST(Features, ATrunksEdgeIsItsAxis) {
     }
     EXPECT_GE(on_axis, 8);  // of 16 rings
   }
+}
+
+/// Far off a trunk shows a few returns, too few for a shape. The middle between its borders is its axis all the same,
+/// before a wall as before the sky. (The only things upright that an orchard or a highway offers.)
+TEST(Features, AFarTrunksEdgeIsItsAxis) {
+  BoxWorld walled;
+  walled.boxes.push_back({{-40.0, -40.0, -50.0}, {40.0, 40.0, 50.0}, true});
+  BoxWorld before_the_sky;
+  before_the_sky.boxes.push_back({{-20.0, -50.0, -50.0}, {40.0, -40.0, 50.0}, false});
+  before_the_sky.boxes.push_back({{-20.0, 40.0, -50.0}, {40.0, 50.0, 50.0}, false});
+  for (BoxWorld world : {walled, before_the_sky}) {
+    const testing::Trunk trunk{{-14.0, 2.0}, 0.12};
+    world.trunks.push_back(trunk);
+    for (const Pose& pose : {standing_at(0.0, 0.0, 0.0), standing_at(-10.0, -12.0, 0.0)}) {
+      int on_axis = 0;
+      Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+      for (const FeaturePoint& e : features_at(world, pose).edges) {
+        const Eigen::Vector2d off = (pose * e.position.cast<double>()).head<2>() - trunk.axis;
+        if (off.norm() > 1.0) continue;
+        // Either border lies anywhere between two beams 3.5 mrad apart.
+        EXPECT_LT(off.norm(), 0.05 + 3.0 * kRangeSigma);
+        sum += off;
+        ++on_axis;
+      }
+      ASSERT_GE(on_axis, 12);  // of 16 rings
+      EXPECT_LT((sum / on_axis).norm(), 0.025) << "no side of it is preferred";
+    }
+  }
+}
+
+/// A hole in a wall, or returns that it did not give, leave pieces as narrow as a trunk. They stand where the holes are
+/// seen from.
+TEST(Features, APieceOfAWallIsNoPole) {
+  BoxWorld world;
+  world.boxes.push_back({{-8.0, -8.0, -50.0}, {8.0, 8.0, 50.0}, true});
+  Calibration calibration;
+  calibration.lidar_range_sigma_m = kRangeSigma;
+  RandomStream noise(1, "lidar");
+  LidarScan scan = testing::vlp16_scan(world, [](double) { return Pose{}; }, 0, {}, kRangeSigma, noise);
+  // Of every 1.5 degrees of the sweep the first half is kept.
+  std::erase_if(scan.points, [](const LidarPoint& p) {
+    const double turns = std::atan2(p.position.y(), p.position.x()) * 120.0 / M_PI;
+    return turns - std::floor(turns) > 0.5;
+  });
+  PoseTrack rest;
+  rest.push(0, {});
+  EXPECT_TRUE(extract_features(scan, deskew(scan, rest, {}, 0), calibration).edges.empty());
 }
 
 TEST(Features, OfAnOcclusionOnlyTheNearSideIsAnEdge) {
