@@ -8,6 +8,10 @@
 namespace plumbline {
 namespace {
 
+constexpr int kLeastClutterNeighbours = 6;
+// Least over greatest eigenvalue of scatter: of a sheet three times as wide as it is thick it would be 0.1.
+constexpr double kLeastThickness = 0.05;
+
 struct Scatter {
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
   Eigen::Vector3d eigenvalues = Eigen::Vector3d::Zero();  // of the covariance, ascending
@@ -132,6 +136,22 @@ void add_line_rows(const Eigen::Vector3d& point_in_body, const MapLine& line, co
   rows.add(
       line.across_1.dot(offset) / sigma_m, component_jacobian(line.across_1, point_in_body, world_from_body) / sigma_m,
       line.across_2.dot(offset) / sigma_m, component_jacobian(line.across_2, point_in_body, world_from_body) / sigma_m);
+}
+
+std::optional<Eigen::Vector3d> clutter_partner(const NearestSamples& neighbours) {
+  if (neighbours.size() < kLeastClutterNeighbours) return std::nullopt;
+  const Eigen::Vector3d spread = scatter_of(all_positions(neighbours)).eigenvalues;
+  if (spread[0] < kLeastThickness * spread[2]) return std::nullopt;
+  return neighbours[0].position;
+}
+
+void add_point_rows(const Eigen::Vector3d& point_in_body, const Eigen::Vector3d& partner, const Pose& world_from_body,
+                    double sigma_m, ResidualRows& rows) {
+  ResidualRows::Jacobian3 jacobian;
+  for (int axis = 0; axis < 3; ++axis) {
+    jacobian.row(axis) = component_jacobian(Eigen::Vector3d::Unit(axis), point_in_body, world_from_body) / sigma_m;
+  }
+  rows.add((world_from_body * point_in_body - partner) / sigma_m, jacobian);
 }
 
 }  // namespace plumbline

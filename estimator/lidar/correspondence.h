@@ -9,13 +9,19 @@
 /// From map points around a feature to the line or plane that it should lie on, and the rows of that constraint.
 namespace plumbline {
 
-/// Two range errors meet in a residual, the scan's and the map's. Below two centimetres the map's own errors (cells that
-/// straddle a crease, curved surfaces, de-skewing) outweigh the lidar's noise.
+/// Two range errors meet in a residual, the scan's and the map's. Below two centimetres the map's own errors (cells
+/// that straddle a crease, curved surfaces, de-skewing) outweigh the lidar's noise.
 inline constexpr double kLeastMatchSigma_m = 0.02;
 /// Ten cells around a point of a wall span 0.8 m and average the noise of its normal; edges need a few more, since the
 /// neighbours of one line mix with those of the next.
 inline constexpr int kPlaneNeighbours = 10;
 inline constexpr int kLineNeighbours = 16;
+
+/// Enough to tell what fills space from a sheet.
+inline constexpr int kClutterNeighbours = 8;
+inline constexpr double kClutterReach_m = 0.5;
+/// What a return of foliage lies off the nearest map point, which another beam left.
+inline constexpr double kClutterSigma_m = 0.1;
 
 /// The plane { x : normal . x = offset } in W.
 struct MapPlane {
@@ -47,6 +53,10 @@ struct FitLimits {
 std::optional<MapPlane> fit_plane(const NearestSamples& neighbours, const FitLimits& limits);
 std::optional<MapLine> fit_line(const NearestSamples& neighbours, const FitLimits& limits);
 
+/// The nearest neighbour's position, if the neighbours fill space. Points of a smooth surface have none: the nearest to
+/// each is one that the same beam left, and would hold the pose where it is along the surface.
+std::optional<Eigen::Vector3d> clutter_partner(const NearestSamples& neighbours);
+
 /// Distance to the plane (5.15), signed so that it is smooth at zero, over sigma.
 void add_plane_row(const Eigen::Vector3d& point_in_body, const MapPlane& plane, const Pose& world_from_body,
                    double sigma_m, ResidualRows& rows);
@@ -54,5 +64,9 @@ void add_plane_row(const Eigen::Vector3d& point_in_body, const MapPlane& plane, 
 /// Offset from the line (5.14) as its two components across the line, over sigma: their norm has no derivative at zero.
 void add_line_rows(const Eigen::Vector3d& point_in_body, const MapLine& line, const Pose& world_from_body,
                    double sigma_m, ResidualRows& rows);
+
+/// Offset from a map point, over sigma.
+void add_point_rows(const Eigen::Vector3d& point_in_body, const Eigen::Vector3d& partner, const Pose& world_from_body,
+                    double sigma_m, ResidualRows& rows);
 
 }  // namespace plumbline

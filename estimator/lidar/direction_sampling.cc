@@ -66,4 +66,19 @@ std::vector<std::uint32_t> sample_by_direction(const std::vector<FeaturePoint>& 
   return picked;
 }
 
+std::vector<FeaturePoint> every_nth(const std::vector<FeaturePoint>& features, int budget) {
+  std::vector<FeaturePoint> picked;
+  const std::size_t count = std::min(features.size(), static_cast<std::size_t>(budget));
+  picked.reserve(count);
+  for (std::size_t k = 0; k < count; ++k) picked.push_back(features[k * features.size() / count]);
+  return picked;
+}
+
+std::vector<FeaturePoint> pick(const std::vector<FeaturePoint>& features, const std::vector<std::uint32_t>& which) {
+  std::vector<FeaturePoint> picked;
+  picked.reserve(which.size());
+  for (const std::uint32_t i : which) picked.push_back(features[i]);
+  return picked;
+}
+
 }  // namespace plumbline

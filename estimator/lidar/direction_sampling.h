@@ -13,4 +13,9 @@ namespace plumbline {
 /// faces every way, seldom makes a plane, and would leave little of the budget to the ground.
 std::vector<std::uint32_t> sample_by_direction(const std::vector<FeaturePoint>& planes, int budget);
 
+/// Picks at most `budget` features evenly along their order.
+std::vector<FeaturePoint> every_nth(const std::vector<FeaturePoint>& features, int budget);
+/// Those at the given places.
+std::vector<FeaturePoint> pick(const std::vector<FeaturePoint>& features, const std::vector<std::uint32_t>& which);
+
 }  // namespace plumbline

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "estimator/lidar/crease.h"
 #include "estimator/lidar/facing_side.h"
@@ -36,6 +37,7 @@ constexpr float kSilhouetteGrazing = 0.3420F;  // sin(20 deg): a run that ends b
 constexpr int kSectors = 4;
 constexpr int kEdgesPerSector = 5;
 constexpr double kPlaneSpacing_m = 0.25;  // one planar feature a cell of this size and side
+constexpr double kClutterSpacing_m = 0.1;
 // Points across two rings belong to one surface if they are no further apart than this share of the range, plus a
 // little.
 constexpr float kCrossLimit = 0.25F;
@@ -57,6 +59,36 @@ struct EdgeCandidate {
   int half_window = 0;
   float score = 0.0F;
   std::optional<Eigen::Vector3f> step;  // of silhouettes only: to where the next beam passed the edge
+};
+
+/// One feature for all points of a cell and side: their mean, with the sum of their normals.
+class Cells {
+ public:
+  explicit Cells(double spacing_m) : per_m_(1.0 / spacing_m) {}
+
+  void add(const FeaturePoint& point) {
+    const Eigen::Vector3i cell = cell_of(point.position.cast<double>(), per_m_);
+    const auto fresh = static_cast<std::uint32_t>(means.size());
+    const std::uint32_t at = index_.find_or_insert(pack_cell(cell, facing_side(point.normal)), fresh);
+    if (at == fresh) {
+      means.push_back(point);
+      counts_.push_back(1);
+      return;
+    }
+    FeaturePoint& mean = means[at];
+    const float share = 1.0F / static_cast<float>(++counts_[at]);
+    mean.position += share * (point.position - mean.position);
+    mean.intensity += share * (point.intensity - mean.intensity);
+    mean.offset_s += share * (point.offset_s - mean.offset_s);
+    mean.normal += point.normal;
+  }
+
+  std::vector<FeaturePoint> means;
+
+ private:
+  double per_m_;
+  std::vector<int> counts_;
+  FlatIndex index_{4096};
 };
 
 class Extraction {
@@ -99,9 +131,7 @@ class Extraction {
   }
 
   std::vector<FeaturePoint> planes() const {
-    std::vector<FeaturePoint> cells;
-    std::vector<int> counts;
-    FlatIndex index(4096);
+    Cells cells(kPlaneSpacing_m);
     for (int r = 0; r < table_.ring_count(); ++r) {
       Across above(table_, r, 1);
       Across below(table_, r, -1);
@@ -109,11 +139,22 @@ class Extraction {
         if (!is_planar(i)) continue;
         const Eigen::Vector3f normal = normal_at(i, above, below);
         if (normal.isZero()) continue;
-        add_to_cell({table_.position(i), table_.intensity(i), normal, 0.0F, seconds(i), r}, index, cells, counts);
+        cells.add({table_.position(i), table_.intensity(i), normal, 0.0F, seconds(i), r});
       }
     }
-    for (FeaturePoint& cell : cells) cell.normal.normalize();
-    return cells;
+    for (FeaturePoint& mean : cells.means) mean.normal.normalize();
+    return std::move(cells.means);
+  }
+
+  std::vector<FeaturePoint> clutter() const {
+    Cells cells(kClutterSpacing_m);
+    for (int r = 0; r < table_.ring_count(); ++r) {
+      for (int i = table_.ring_begin(r); i < table_.ring_end(r); ++i) {
+        if (!is_clutter(i, r)) continue;
+        cells.add({table_.position(i), table_.intensity(i), Eigen::Vector3f::Zero(), 0.0F, seconds(i), r});
+      }
+    }
+    return std::move(cells.means);
   }
 
  private:
@@ -271,6 +312,16 @@ class Extraction {
     return position;
   }
 
+  /// Part of a short run with something further, or something nearer, on both sides. (On a wall that the beams graze,
+  /// too, every return may be a run of its own, but there the ranges all go one way.)
+  bool is_clutter(int i, int ring) const {
+    const int before = table_.run_begin(i) - 1;
+    const int after = table_.run_end(i);
+    if (after - before > 2 * kLeastHalfWindow + 1) return false;
+    if (before < table_.ring_begin(ring) || after >= table_.ring_end(ring)) return false;
+    return (table_.range(before) > table_.range(i)) == (table_.range(after) > table_.range(i));
+  }
+
   bool is_planar(int i) const {
     const Shape& s = shape(i);
     return s.half_window > 0 && s.deviation_m < std::max(kPlaneCurvature * table_.range(i), kPlaneSigmas * s.sigma_m);
@@ -306,24 +357,6 @@ class Extraction {
     return (towards > 0.0F ? -1.0F : 1.0F) / length * normal;
   }
 
-  static void add_to_cell(const FeaturePoint& point, FlatIndex& index, std::vector<FeaturePoint>& cells,
-                          std::vector<int>& counts) {
-    const Eigen::Vector3i cell = cell_of(point.position.cast<double>(), 1.0 / kPlaneSpacing_m);
-    const auto fresh = static_cast<std::uint32_t>(cells.size());
-    const std::uint32_t at = index.find_or_insert(pack_cell(cell, facing_side(point.normal)), fresh);
-    if (at == fresh) {
-      cells.push_back(point);
-      counts.push_back(1);
-      return;
-    }
-    FeaturePoint& mean = cells[at];
-    const float share = 1.0F / static_cast<float>(++counts[at]);
-    mean.position += share * (point.position - mean.position);
-    mean.intensity += share * (point.intensity - mean.intensity);
-    mean.offset_s += share * (point.offset_s - mean.offset_s);
-    mean.normal += point.normal;
-  }
-
   const RingTable& table_;
   float range_sigma_;
   std::vector<Shape> shapes_;
@@ -334,7 +367,7 @@ class Extraction {
 FeatureCloud extract_features(const LidarScan& scan, const DeskewedScan& deskewed, const Calibration& calibration) {
   const RingTable table(scan, deskewed, calibration);
   const Extraction extraction(table, calibration);
-  FeatureCloud cloud{extraction.edges(), extraction.planes()};
+  FeatureCloud cloud{extraction.edges(), extraction.planes(), extraction.clutter()};
   extraction.add_poles(cloud.edges);
   return cloud;
 }
@@ -342,7 +375,7 @@ FeatureCloud extract_features(const LidarScan& scan, const DeskewedScan& deskewe
 void move(FeatureCloud& features, const Pose& target_from_source, float later_s) {
   const Eigen::Matrix3f rotation = target_from_source.rotation.toRotationMatrix().cast<float>();
   const Eigen::Vector3f translation = target_from_source.translation.cast<float>();
-  for (std::vector<FeaturePoint>* kind : {&features.edges, &features.planes}) {
+  for (std::vector<FeaturePoint>* kind : {&features.edges, &features.planes, &features.clutter}) {
     for (FeaturePoint& f : *kind) {
       f.position = rotation * f.position + translation;
       f.normal = rotation * f.normal;

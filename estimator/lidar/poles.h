@@ -8,9 +8,9 @@ namespace plumbline {
 
 /// Where the axis of a thin upright thing, a trunk or a post, stands behind a run of returns.
 struct Pole {
-  int index = 0;                       ///< of the run's middle return
-  Eigen::Vector3f axis_point;          ///< in B
-  float spread_m = 0.0F;               ///< one sigma, since either border lies anywhere between two beams
+  int index = 0;               ///< of the run's middle return
+  Eigen::Vector3f axis_point;  ///< in B
+  float spread_m = 0.0F;       ///< one sigma, since either border lies anywhere between two beams
 };
 
 /// The run [first, end) of a ring as a pole: narrow, convex enough to be seen alike from all sides, and in front of

@@ -29,9 +29,17 @@ constexpr double kSearchAgain_rad = 0.003;
 // all returns share, a quarter for one of each ring.
 constexpr double kBiasShare = 0.5;
 
+constexpr double kClutterResolution_m = 0.1;
+
 struct PlaneMatch {
   Eigen::Vector3d point_in_body;
   MapPlane plane;
+  int ring;
+};
+
+struct PointMatch {
+  Eigen::Vector3d point_in_body;
+  Eigen::Vector3d partner;
   int ring;
 };
 
@@ -53,21 +61,6 @@ std::vector<Eigen::Vector3d> in_world(const std::vector<FeaturePoint>& features,
   return points;
 }
 
-std::vector<FeaturePoint> pick(const std::vector<FeaturePoint>& from, const std::vector<std::uint32_t>& which) {
-  std::vector<FeaturePoint> picked;
-  picked.reserve(which.size());
-  for (const std::uint32_t i : which) picked.push_back(from[i]);
-  return picked;
-}
-
-std::vector<FeaturePoint> every_nth(const std::vector<FeaturePoint>& from, int budget) {
-  std::vector<FeaturePoint> picked;
-  const std::size_t count = std::min(from.size(), static_cast<std::size_t>(budget));
-  picked.reserve(count);
-  for (std::size_t k = 0; k < count; ++k) picked.push_back(from[k * from.size() / count]);
-  return picked;
-}
-
 }  // namespace
 
 struct ScanMatcher::Impl {
@@ -77,7 +70,8 @@ struct ScanMatcher::Impl {
         bias_sigma_m(kBiasShare * calibration.lidar_range_sigma_m),
         body_from_lidar(calibration.body_from_lidar),
         edges(settings.coarse_voxel_m, settings.edge_resolution_m),
-        planes(settings.coarse_voxel_m, settings.plane_resolution_m) {
+        planes(settings.coarse_voxel_m, settings.plane_resolution_m),
+        clutter(settings.coarse_voxel_m, kClutterResolution_m, VoxelMap::Forgotten::kLost) {
     options.max_iterations = settings.max_iterations;
     options.rotation_tolerance = settings.rotation_tolerance;
     options.translation_tolerance = settings.translation_tolerance;
@@ -101,6 +95,7 @@ struct ScanMatcher::Impl {
   MatchDrift drift;
   VoxelMap edges;
   VoxelMap planes;
+  VoxelMap clutter;
   std::vector<MatchRow> rows;  ///< of the last match
 };
 
@@ -109,29 +104,34 @@ namespace {
 /// The linearizer of one match: finds correspondences at a pose and stacks their rows (thesis 5.13-5.15).
 class MapConstraints {
  public:
-  MapConstraints(const VoxelMap& edges, const VoxelMap& planes, const FitLimits& edge_limits,
+  MapConstraints(const VoxelMap& edges, const VoxelMap& planes, const VoxelMap& clutter, const FitLimits& edge_limits,
                  const FitLimits& plane_limits, double sigma_m, const FeatureCloud& features)
       : edges_(edges),
         planes_(planes),
+        clutter_(clutter),
         edge_limits_(edge_limits),
         plane_limits_(plane_limits),
         sigma_m_(sigma_m),
         features_(features) {
     plane_matches_.reserve(features.planes.size());
     line_matches_.reserve(features.edges.size());
+    point_matches_.reserve(features.clutter.size());
   }
 
   void linearize(const Pose& world_from_body, ResidualRows& rows) {
     if (!searched_ || moved_far(world_from_body)) search(world_from_body);
     for (const PlaneMatch& m : plane_matches_) add_plane_row(m.point_in_body, m.plane, world_from_body, sigma_m_, rows);
     for (const LineMatch& m : line_matches_) add_line_rows(m.point_in_body, m.line, world_from_body, m.sigma_m, rows);
+    for (const PointMatch& m : point_matches_) {
+      add_point_rows(m.point_in_body, m.partner, world_from_body, kClutterSigma_m, rows);
+    }
   }
 
-  /// The rows that linearize() stacked last, not yet weighted: one per plane, then two per line.
+  /// The rows that linearize() stacked last, not yet weighted: one per plane, then two per line, then three per point.
   std::vector<MatchRow> match_rows(const Pose& world_from_body) const {
     const Eigen::Quaterniond body_from_world = world_from_body.rotation.conjugate();
     std::vector<MatchRow> rows;
-    rows.reserve(plane_matches_.size() + 2 * line_matches_.size());
+    rows.reserve(plane_matches_.size() + 2 * line_matches_.size() + 3 * point_matches_.size());
     for (const PlaneMatch& m : plane_matches_) {
       const double distance_m = m.plane.normal.dot(world_from_body * m.point_in_body) - m.plane.offset;
       rows.push_back({m.point_in_body, body_from_world * m.plane.normal, distance_m, sigma_m_, 1.0});
@@ -142,9 +142,29 @@ class MapConstraints {
         rows.push_back({m.point_in_body, body_from_world * across, across.dot(off), m.sigma_m, 1.0});
       }
     }
+    for (const PointMatch& m : point_matches_) {
+      const Eigen::Vector3d off = world_from_body * m.point_in_body - m.partner;
+      for (int axis = 0; axis < 3; ++axis) {
+        const Eigen::Vector3d along = body_from_world * Eigen::Vector3d::Unit(axis);
+        rows.push_back({m.point_in_body, along, off[axis], kClutterSigma_m, 1.0});
+      }
+    }
     return rows;
   }
-  std::size_t plane_count() const { return plane_matches_.size(); }
+  /// Which feature each of match_rows() belongs to.
+  std::vector<std::size_t> features_of_rows() const {
+    std::vector<std::size_t> features;
+    std::size_t feature = 0;
+    const auto add = [&](std::size_t count, int rows_each) {
+      for (const std::size_t end = feature + count; feature < end; ++feature) {
+        features.insert(features.end(), static_cast<std::size_t>(rows_each), feature);
+      }
+    };
+    add(plane_matches_.size(), 1);
+    add(line_matches_.size(), 2);
+    add(point_matches_.size(), 3);
+    return features;
+  }
 
   /// To first order: J^T of the rows times their change per metre of motion and bias, summed over each ring, since all
   /// of a ring err alike, and over all.
@@ -188,8 +208,10 @@ class MapConstraints {
   /// In the order of the rows.
   std::pair<Eigen::Vector3d, int> feature(std::size_t at) const {
     if (at < plane_matches_.size()) return {plane_matches_[at].point_in_body, plane_matches_[at].ring};
-    const LineMatch& line = line_matches_[at - plane_matches_.size()];
-    return {line.point_in_body, line.ring};
+    at -= plane_matches_.size();
+    if (at < line_matches_.size()) return {line_matches_[at].point_in_body, line_matches_[at].ring};
+    const PointMatch& point = point_matches_[at - line_matches_.size()];
+    return {point.point_in_body, point.ring};
   }
 
   bool moved_far(const Pose& pose) const {
@@ -202,8 +224,10 @@ class MapConstraints {
     searched_at_ = world_from_body;
     plane_matches_.clear();
     line_matches_.clear();
+    point_matches_.clear();
     for (const FeaturePoint& f : features_.planes) match_plane(f, world_from_body);
     for (const FeaturePoint& f : features_.edges) match_line(f, world_from_body);
+    for (const FeaturePoint& f : features_.clutter) match_point(f, world_from_body);
   }
 
   void match_plane(const FeaturePoint& feature, const Pose& world_from_body) {
@@ -224,8 +248,16 @@ class MapConstraints {
     line_matches_.push_back({point, *line, sigma_m, feature.ring});
   }
 
+  void match_point(const FeaturePoint& feature, const Pose& world_from_body) {
+    const Eigen::Vector3d point = feature.position.cast<double>();
+    NearestSamples nearest(kClutterNeighbours, kClutterReach_m, Eigen::Vector3f::Zero());
+    clutter_.nearest(world_from_body * point, kClutterReach_m, nearest);
+    if (const auto partner = clutter_partner(nearest)) point_matches_.push_back({point, *partner, feature.ring});
+  }
+
   const VoxelMap& edges_;
   const VoxelMap& planes_;
+  const VoxelMap& clutter_;
   const FitLimits& edge_limits_;
   const FitLimits& plane_limits_;
   double sigma_m_;
@@ -234,6 +266,7 @@ class MapConstraints {
   Pose searched_at_;
   std::vector<PlaneMatch> plane_matches_;
   std::vector<LineMatch> line_matches_;
+  std::vector<PointMatch> point_matches_;
 };
 
 }  // namespace
@@ -248,25 +281,27 @@ SolveResult ScanMatcher::match(const FeatureCloud& features, const PosePrior& wo
                                const Linearizer& further_rows) {
   Impl& m = *impl_;
   const FeatureCloud used = {every_nth(features.edges, m.config.edge_budget),
-                             pick(features.planes, sample_by_direction(features.planes, m.config.plane_budget))};
+                             pick(features.planes, sample_by_direction(features.planes, m.config.plane_budget)),
+                             every_nth(features.clutter, m.config.clutter_budget)};
   m.edges.prepare(in_world(used.edges, world_from_body.mean));
   m.planes.prepare(in_world(used.planes, world_from_body.mean));
-  MapConstraints constraints(m.edges, m.planes, m.edge_limits, m.plane_limits, m.sigma_m, used);
+  m.clutter.prepare(in_world(used.clutter, world_from_body.mean));
+  MapConstraints constraints(m.edges, m.planes, m.clutter, m.edge_limits, m.plane_limits, m.sigma_m, used);
   m.rows.clear();
-  std::size_t planes = 0;
+  std::vector<std::size_t> feature_of_row;
   const SolveResult solved = solve(
       world_from_body.mean, world_from_body,
       [&](const Pose& pose, ResidualRows& rows) {
         constraints.linearize(pose, rows);
         if (m.rows.empty()) {
           m.rows = constraints.match_rows(pose);
-          planes = constraints.plane_count();
+          feature_of_row = constraints.features_of_rows();
         }
         if (further_rows) further_rows(pose, rows);
       },
       m.options);
   for (std::size_t i = 0; i < m.rows.size(); ++i) {
-    const std::size_t feature = i < planes ? i : planes + (i - planes) / 2;
+    const std::size_t feature = feature_of_row[i];
     m.rows[i].weight = feature < solved.weights_at_guess.size() ? solved.weights_at_guess[feature] : 0.0;
   }
   m.drift = constraints.drift(solved, m.body_from_lidar.translation, m.bias_sigma_m);
@@ -293,12 +328,14 @@ void ScanMatcher::insert(const FeatureCloud& features, const Pose& world_from_bo
   const double oldest_m = path_m - m.config.memory_path_m;
   m.edges.forget_before(oldest_m);
   m.planes.forget_before(oldest_m);
+  m.clutter.forget_before(oldest_m);
   const Eigen::Matrix3f rotation = world_from_body.rotation.toRotationMatrix().cast<float>();
   const auto merge = [&](const FeaturePoint& f, VoxelMap& map) {
     map.insert({world_from_body * f.position.cast<double>(), rotation * f.normal}, f.intensity, path_m);
   };
   for (const FeaturePoint& f : features.edges) merge(f, m.edges);
   for (const FeaturePoint& f : features.planes) merge(f, m.planes);
+  for (const FeaturePoint& f : features.clutter) merge(f, m.clutter);
 }
 
 std::vector<MapPoint> ScanMatcher::map() const {

@@ -25,7 +25,8 @@ struct ScanMatcherConfig {
   double rotation_tolerance = 2e-5;     ///< [rad] a smaller step ends a match
   double translation_tolerance = 1e-4;  ///< [m] likewise
   int plane_budget = 1200;              ///< planar features matched of one scan
-  int edge_budget = 300;                ///< edge features matched of one scan
+  int edge_budget = 800;                ///< edge features matched of one scan
+  int clutter_budget = 1500;            ///< points of clutter matched of one scan
   int least_features = 50;              ///< fewer matched: nothing is well-conditioned
   double largest_plane_tilt = 0.03;     ///< [rad] one sigma of a fitted plane's normal
   /// [rad] between a fitted plane and its points' own normals, which is several times what biases of the rings tilt

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -14,7 +15,8 @@ namespace plumbline {
 namespace {
 
 constexpr int kPlaneBudget = 1200;
-constexpr int kEdgeBudget = 200;
+constexpr int kEdgeBudget = 500;
+constexpr int kClutterBudget = 2500;
 constexpr int kLeastFeatures = 50;
 constexpr int kMaxIterations = 15;
 // On whitened J^T J, as in scan matching: 1.4 cm of standard deviation.
@@ -27,6 +29,7 @@ constexpr double kLargestLineReach_m = 2.0;
 constexpr double kLineReachPerRange = 0.1;
 constexpr double kLargestDoubt_m = 4.0;
 constexpr double kCoarseDoubt_m = 0.1;
+constexpr double kClearlyMore = 1.2;
 constexpr double kUnitNoiseMad = 0.6745;
 
 double reach_of(const FeaturePoint& feature, double doubt_m) {
@@ -80,10 +83,12 @@ class LinearMotion {
 /// The linearizer of one solve: correspondences anew at every iteration, as Algorithm 2 has it.
 class SweepConstraints {
  public:
-  SweepConstraints(const PointTree& edges, const PointTree& planes, const FeatureCloud& features, const Pose& predicted,
-                   double duration_s, double sigma_m, double map_sigma_m)
+  SweepConstraints(const PointTree& edges, const PointTree& planes, const PointTree& clutter,
+                   const FeatureCloud& features, const Pose& predicted, double duration_s, double sigma_m,
+                   double map_sigma_m)
       : edges_(edges),
         planes_(planes),
+        clutter_(clutter),
         features_(features),
         predicted_(predicted),
         duration_s_(duration_s),
@@ -100,6 +105,7 @@ class SweepConstraints {
     const LinearMotion motion(predicted_, reference_from_body);
     for (const FeaturePoint& f : features_.planes) add_plane(f, motion, rows);
     for (const FeaturePoint& f : features_.edges) add_line(f, motion, rows);
+    for (const FeaturePoint& f : features_.clutter) add_point(f, motion, rows);
     doubt_m_ = doubt_m_ > 0.05 ? 0.25 * doubt_m_ : 0.0;
   }
 
@@ -130,8 +136,23 @@ class SweepConstraints {
              line->across_2.dot(offset) / sigma_m, motion.jacobian(line->across_2, point, share_of(f)) / sigma_m);
   }
 
+  void add_point(const FeaturePoint& f, const LinearMotion& motion, ResidualRows& rows) const {
+    const Eigen::Vector3d point = f.position.cast<double>();
+    const Eigen::Vector3d placed = motion.place(point, share_of(f));
+    NearestSamples nearest(kClutterNeighbours, kClutterReach_m + doubt_m_, Eigen::Vector3f::Zero());
+    clutter_.search(placed, nearest);
+    const auto partner = clutter_partner(nearest);
+    if (!partner) return;
+    ResidualRows::Jacobian3 jacobian;
+    for (int axis = 0; axis < 3; ++axis) {
+      jacobian.row(axis) = motion.jacobian(Eigen::Vector3d::Unit(axis), point, share_of(f)) / kClutterSigma_m;
+    }
+    rows.add((placed - *partner) / kClutterSigma_m, jacobian);
+  }
+
   const PointTree& edges_;
   const PointTree& planes_;
+  const PointTree& clutter_;
   const FeatureCloud& features_;
   const Pose& predicted_;
   double duration_s_;
@@ -142,14 +163,48 @@ class SweepConstraints {
 };
 
 FeatureCloud within_budget(const FeatureCloud& from, int effort) {
-  FeatureCloud used;
-  const std::size_t edges = std::min(from.edges.size(), static_cast<std::size_t>(effort * kEdgeBudget));
-  used.edges.reserve(edges);
-  for (std::size_t k = 0; k < edges; ++k) used.edges.push_back(from.edges[k * from.edges.size() / edges]);
-  const std::vector<std::uint32_t> picked = sample_by_direction(from.planes, effort * kPlaneBudget);
-  used.planes.reserve(picked.size());
-  for (const std::uint32_t i : picked) used.planes.push_back(from.planes[i]);
-  return used;
+  return {every_nth(from.edges, effort * kEdgeBudget),
+          pick(from.planes, sample_by_direction(from.planes, effort * kPlaneBudget)),
+          every_nth(from.clutter, kClutterBudget)};
+}
+
+/// One solve from one guess to the next, over the same features.
+class SweepSolve {
+ public:
+  SweepSolve(SweepConstraints constraints, const PosePrior& prior, double sigma_m, bool remapping)
+      : constraints_(std::move(constraints)), prior_(prior), sigma_m_(sigma_m) {
+    options_.max_iterations = kMaxIterations;
+    options_.rotation_tolerance = 1e-4;
+    options_.translation_tolerance = 5e-4;
+    options_.degeneracy_threshold = kDegeneracyThreshold;
+    options_.remapping = remapping;
+    options_.min_features = kLeastFeatures;
+  }
+
+  SolveResult from(const Pose& guess, double doubt_m) {
+    options_.scale_floor = kUnitNoiseMad * (1.0 + doubt_m / sigma_m_);
+    constraints_.start_with(doubt_m);
+    return solve(
+        guess, prior_, [&](const Pose& pose, ResidualRows& rows) { constraints_.linearize(pose, rows); }, options_);
+  }
+
+  /// Far from the solution the rows that would lead to it look like outliers. First all are believed.
+  SolveResult widely() {
+    const double doubt_m =
+        std::min(kLargestDoubt_m, 2.0 * std::sqrt(prior_.covariance.bottomRightCorner<3, 3>().trace()));
+    return from(doubt_m > kCoarseDoubt_m ? from(prior_.mean, doubt_m).pose : prior_.mean, 0.0);
+  }
+
+ private:
+  SweepConstraints constraints_;
+  const PosePrior& prior_;
+  double sigma_m_;
+  SolverOptions options_;
+};
+
+/// How many features agree with a solution.
+double support_of(const SolveResult& solved) {
+  return std::accumulate(solved.weights.begin(), solved.weights.end(), 0.0);
 }
 
 }  // namespace
@@ -173,6 +228,7 @@ void SweepOdometry::begin(const FeatureCloud& last_sweep, std::int64_t reference
 void SweepOdometry::revise(const FeatureCloud& last_sweep) {
   edges_.build(samples_of(last_sweep.edges));
   planes_.build(samples_of(last_sweep.planes));
+  clutter_.build(samples_of(last_sweep.clutter));
 }
 
 void SweepOdometry::add(const FeatureCloud& predicted_in_reference) {
@@ -181,33 +237,28 @@ void SweepOdometry::add(const FeatureCloud& predicted_in_reference) {
   };
   append(sweep_.edges, predicted_in_reference.edges);
   append(sweep_.planes, predicted_in_reference.planes);
+  append(sweep_.clutter, predicted_in_reference.clutter);
 }
 
 SolveResult SweepOdometry::solve(std::int64_t now_ns, const PosePrior& reference_from_body,
-                                 const std::optional<Pose>& known, int effort) const {
-  SolverOptions options;
-  options.max_iterations = kMaxIterations;
-  options.rotation_tolerance = 1e-4;
-  options.translation_tolerance = 5e-4;
-  options.degeneracy_threshold = kDegeneracyThreshold;
-  options.remapping = remapping_;
-  options.min_features = kLeastFeatures;
+                                 const std::optional<Pose>& likely, int effort) const {
   const FeatureCloud used = within_budget(sweep_, effort);
-  const Pose& predicted = reference_from_body.mean;
-  SweepConstraints constraints(edges_, planes_, used, predicted, seconds_between(reference_ns_, now_ns), sigma_m_,
-                               map_sigma_m_);
-  const auto solve_from = [&](const Pose& guess, double doubt_m) {
-    options.scale_floor = kUnitNoiseMad * (1.0 + doubt_m / sigma_m_);
-    constraints.start_with(doubt_m);
-    return plumbline::solve(
-        guess, reference_from_body, [&](const Pose& pose, ResidualRows& rows) { constraints.linearize(pose, rows); },
-        options);
-  };
-  if (known) return solve_from(*known, 0.0);
-  // Far from the solution the rows that would lead to it look like outliers. First all are believed.
-  const double doubt_m =
-      std::min(kLargestDoubt_m, 2.0 * std::sqrt(reference_from_body.covariance.bottomRightCorner<3, 3>().trace()));
-  return solve_from(doubt_m > kCoarseDoubt_m ? solve_from(predicted, doubt_m).pose : predicted, 0.0);
+  SweepSolve solve(SweepConstraints(edges_, planes_, clutter_, used, reference_from_body.mean,
+                                    seconds_between(reference_ns_, now_ns), sigma_m_, map_sigma_m_),
+                   reference_from_body, sigma_m_, remapping_);
+  const SolveResult afresh = solve.widely();
+  if (!likely) return afresh;
+  const SolveResult onwards = solve.from(*likely, 0.0);
+  return support_of(onwards) > kClearlyMore * support_of(afresh) ? onwards : afresh;
+}
+
+SolveResult SweepOdometry::refine(std::int64_t now_ns, const PosePrior& reference_from_body, const Pose& known,
+                                  int effort) const {
+  const FeatureCloud used = within_budget(sweep_, effort);
+  SweepSolve solve(SweepConstraints(edges_, planes_, clutter_, used, reference_from_body.mean,
+                                    seconds_between(reference_ns_, now_ns), sigma_m_, map_sigma_m_),
+                   reference_from_body, sigma_m_, remapping_);
+  return solve.from(known, 0.0);
 }
 
 FeatureCloud SweepOdometry::corrected(std::int64_t now_ns, const Pose& predicted,
@@ -225,6 +276,7 @@ FeatureCloud SweepOdometry::corrected(std::int64_t now_ns, const Pose& predicted
   };
   correct(cloud.edges);
   correct(cloud.planes);
+  correct(cloud.clutter);
   return cloud;
 }
 

@@ -40,12 +40,17 @@ class SweepOdometry {
   /// Adds features of the growing sweep, predicted into the reference frame; their offset_s counts from reference_ns.
   void add(const FeatureCloud& predicted_in_reference);
 
-  /// Solves for reference_from_body at now_ns, the time up to which features were added.
+  /// Solves for reference_from_body at now_ns, the time up to which features were added, beginning widely at the
+  /// prediction.
   /// @param reference_from_body  the prediction at now_ns
-  /// @param known   a motion near the solution; without one the search begins widely at the prediction
+  /// @param likely  a motion that may be near the solution: where the search from there finds clearly more support, it
+  /// is
+  ///                taken
   /// @param effort  how many times the usual number of features to use
   SolveResult solve(std::int64_t now_ns, const PosePrior& reference_from_body,
-                    const std::optional<Pose>& known = std::nullopt, int effort = 1) const;
+                    const std::optional<Pose>& likely = std::nullopt, int effort = 1) const;
+  /// The same, beginning closely at a motion near the solution.
+  SolveResult refine(std::int64_t now_ns, const PosePrior& reference_from_body, const Pose& known, int effort) const;
 
   /// The sweep's features so far, put by a solution where they were measured, in B at now_ns.
   FeatureCloud corrected(std::int64_t now_ns, const Pose& predicted, const Pose& reference_from_body) const;
@@ -58,6 +63,7 @@ class SweepOdometry {
   std::int64_t reference_ns_ = 0;
   PointTree edges_;
   PointTree planes_;
+  PointTree clutter_;
   FeatureCloud sweep_;
 };
 

@@ -24,8 +24,8 @@ int floor_divide(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
 
 }  // namespace
 
-VoxelMap::VoxelMap(double coarse_voxel_m, double resolution_m)
-    : coarse_m_(coarse_voxel_m), resolution_m_(resolution_m) {}
+VoxelMap::VoxelMap(double coarse_voxel_m, double resolution_m, Forgotten forgotten)
+    : coarse_m_(coarse_voxel_m), resolution_m_(resolution_m), forgotten_(forgotten) {}
 
 VoxelMap::CoarseVoxel* VoxelMap::find(const Eigen::Vector3i& coarse) {
   const std::uint32_t at = voxel_index_.find(pack_cell(coarse));
@@ -79,7 +79,7 @@ void VoxelMap::drop_older(CoarseVoxel& voxel, double path_m) {
   voxel.changed = true;
   for (const Cell& cell : old) {
     if (cell.first_path_m < path_m) {
-      archive_.push_back(exported(cell.mean, cell.intensity));
+      if (forgotten_ == Forgotten::kKept) archive_.push_back(exported(cell.mean, cell.intensity));
       continue;
     }
     voxel.index.find_or_insert(cell.key, static_cast<std::uint32_t>(voxel.cells.size()));

@@ -18,6 +18,9 @@ constexpr std::int64_t kLongestGap_ns = 2'500'000'000;
 constexpr double kSweepInflation = 25.0;
 constexpr int kFirstSweepRounds = 3;
 constexpr int kFirstEffort = 6;
+// A carrier does not jump: beyond so many sigma of what steady motion foresees, neighbours were mistaken.
+constexpr double kLargestSurprise = 4.0;
+constexpr int kClutterBudget = 2500;  // a sweep of a second sees more of it
 
 // Where the lidar alone tells the pose, odometry may be wrong by this much when it comes to matching with the map.
 constexpr double kOdometrySigma_m = 0.1;
@@ -34,6 +37,7 @@ MessageUse use_of(ImuUse imu) {
 ScanMatcherConfig matcher_config() {
   ScanMatcherConfig config;
   config.largest_plane_disagreement = 1.0;
+  config.clutter_budget = kClutterBudget;
   return config;
 }
 
@@ -127,7 +131,15 @@ void Loam::follow(const LidarScan& part, std::int64_t now_ns) {
   const auto later_s = static_cast<float>(seconds_between(odometry_.reference_ns(), part.stamp_ns));
   move(features, predicted, later_s);
   odometry_.add(features);
-  motion_ = odometry_.solve(now_ns, {predicted, motion_covariance(now_ns)}, std::nullopt, effort());
+  const Pose onwards = correction(now_ns) * predicted;
+  const PosePrior prior{predicted, motion_covariance(now_ns)};
+  motion_ = odometry_.solve(now_ns, prior, onwards, effort());
+  const Vector6d surprise = predicted.local(motion_.pose);
+  const bool jumps = surprise.dot(prior.covariance.ldlt().solve(surprise)) > kLargestSurprise * kLargestSurprise;
+  if (steady_ && jumps) {
+    motion_ = {};
+    motion_.pose = onwards;
+  }
   followed_ns_ = now_ns;
 }
 
@@ -159,8 +171,8 @@ void Loam::redo_first_sweep() {
   for (int round = 0; round < kFirstSweepRounds; ++round) {
     features = features_of(first_->scan, corrected_track(), middle_ns);
     odometry_.revise(features);
-    motion_ = odometry_.solve(followed_ns_, {predicted_motion(followed_ns_), motion_covariance(followed_ns_)},
-                              motion_.pose, effort());
+    motion_ = odometry_.refine(followed_ns_, {predicted_motion(followed_ns_), motion_covariance(followed_ns_)},
+                               motion_.pose, effort());
   }
   // The pose at the first sweep's end was given out long ago, and stays.
   if (steady_) {
@@ -253,14 +265,18 @@ Matrix6d Loam::pose_covariance() const {
   return covariance;
 }
 
-/// A predicted world_from_body with what odometry found wrong with it, growing linearly from the reference time on.
-Pose Loam::corrected(const Pose& world_from_body, std::int64_t stamp_ns) const {
+/// What odometry found wrong with the predicted motion, growing linearly from the reference time on.
+Pose Loam::correction(std::int64_t stamp_ns) const {
   const std::int64_t reference_ns = odometry_.reference_ns();
-  if (followed_ns_ <= reference_ns) return world_from_body;
+  if (followed_ns_ <= reference_ns) return {};
   const double share = seconds_between(reference_ns, stamp_ns) / seconds_between(reference_ns, followed_ns_);
+  return linear_share(motion_.pose, predicted_motion(followed_ns_), share);
+}
+
+/// A predicted world_from_body, corrected.
+Pose Loam::corrected(const Pose& world_from_body, std::int64_t stamp_ns) const {
   const Pose origin = world_from_reference();
-  return origin * linear_share(motion_.pose, predicted_motion(followed_ns_), share) * origin.inverse() *
-         world_from_body;
+  return origin * correction(stamp_ns) * origin.inverse() * world_from_body;
 }
 
 PoseTrack Loam::corrected_track() const {

@@ -64,6 +64,7 @@ class Loam final : public Estimator {
   Pose predicted_motion(std::int64_t now_ns) const;
   Matrix6d motion_covariance(std::int64_t now_ns) const;
   Matrix6d pose_covariance() const;
+  Pose correction(std::int64_t stamp_ns) const;
   Pose corrected(const Pose& world_from_body, std::int64_t stamp_ns) const;
   PoseTrack corrected_track() const;
   Odometry output(std::int64_t stamp_ns) const;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "estimator/geometry/so3.h"
 #include "sim/random_stream.h"
 #include "tests/support/jacobian_check.h"
@@ -46,6 +48,22 @@ TEST(Correspondence, LineRowJacobiansMatchCentralDifferencesAlsoOnTheLine) {
         testing::expect_jacobian_near([&](const Pose& p) { return rows_at(p).residual(r); }, pose,
                                       rows_at(pose).jacobian(r));
       }
+    }
+  }
+}
+
+TEST(Correspondence, PointRowJacobiansMatchCentralDifferences) {
+  const Eigen::Vector3d partner(1.0, 2.0, 3.0);
+  const auto rows_at = [&](const Pose& pose) {
+    ResidualRows rows;
+    add_point_rows(kPoint, partner, pose, 0.1, rows);
+    return rows;
+  };
+  ASSERT_EQ(rows_at({}).feature_count(), 1);
+  for (const Pose& pose : poses()) {
+    for (const int r : {0, 1, 2}) {
+      testing::expect_jacobian_near([&](const Pose& p) { return rows_at(p).residual(r); }, pose,
+                                    rows_at(pose).jacobian(r));
     }
   }
 }
@@ -121,6 +139,23 @@ TEST(Correspondence, OfTwoParallelEdgesTheNearerOnesLineIsFound) {
   const auto line = fit_line(offered(samples), {.largest_residual_m = 0.03});
   ASSERT_TRUE(line.has_value());
   EXPECT_NEAR(line->point.x(), 0.0, 1e-9);
+}
+
+/// On a wall the nearest map point is the one that the same beam left: to be drawn to it is to stay where one is.
+TEST(Correspondence, AClutterPointHasAPartnerInsideFoliageButNoneOnAWall) {
+  EXPECT_FALSE(clutter_partner(offered(grid(4, 0.15, 0.01))));
+  RandomStream random(2, "foliage");
+  std::vector<MapSample> leaves;
+  for (int i = 0; i < 16; ++i) {
+    leaves.push_back({Eigen::Vector3d(random.gaussian(), random.gaussian(), random.gaussian()) * 0.2, {}});
+  }
+  const auto nearer = [](const MapSample& a, const MapSample& b) {
+    return a.position.squaredNorm() < b.position.squaredNorm();
+  };
+  const MapSample nearest = *std::min_element(leaves.begin(), leaves.end(), nearer);
+  const auto partner = clutter_partner(offered(leaves));
+  ASSERT_TRUE(partner);
+  EXPECT_EQ(*partner, nearest.position);
 }
 
 }  // namespace

@@ -79,6 +79,25 @@ TEST(Loam, FollowsATurnedScannerWithoutAnImu) {
   EXPECT_EQ(run.estimator().counts(Module::kLidar).used, 60);
 }
 
+/// From rest without an IMU, where nothing but leaves shows the motion: it was missed at first, and then for good.
+TEST(Loam, SetsOutAmongLeavesWithoutAnImu) {
+  const testing::BoxWorld thicket = testing::thicket(6.0);
+  const Motion motion = [](double t) {
+    const double since = std::max(0.0, t - 2.0);
+    return Pose{exp_so3({0.0, 0.0, 0.05 * std::sin(since)}), {0.5 * since, 0.0, 0.2}};
+  };
+  RandomStream noise(5, "lidar");
+  LoamRun run(calibration_of(40, 1.0));
+  for (std::int64_t sweep = 0; sweep < 8; ++sweep) {
+    for (const LidarScan& part : testing::turned_scanner_sweep(thicket, motion, sweep, 0.01, noise)) run.add(part);
+  }
+  run.wait_until(8'010'000'000);
+  const Vector6d error = run.error(motion, 1'100'000'000, 8'010'000'000);
+  // Of three metres; a start that is not noticed costs half a metre a second.
+  EXPECT_LT(error.tail<3>().norm(), 0.15);
+  EXPECT_LT(error.head<3>().norm(), 0.03);
+}
+
 TEST(Loam, GivesTheMotionWithinASweep) {
   const testing::BoxWorld room = testing::furnished_room();
   const Motion motion = turning_walk(0.4, 0.1);

@@ -131,6 +131,20 @@ TEST(ScanMatcher, PassingTrunksDoesNotPullBackwards) {
   EXPECT_LT(std::abs(sum_m / matched), 0.4 * kRangeSigma);  // the trunks' nearest sides pull by 0.8 of it
 }
 
+/// Ground and leaves: what has neither an edge nor a plane tells where one stands by its points.
+TEST(ScanMatcher, LeavesTellWhereOneStands) {
+  RandomStream noise(7, "lidar");
+  const BoxWorld thicket = testing::thicket(10.0);
+  ScanMatcher matcher = mapped(thicket, noise);
+  const Pose truth = at(0.6, 0.2, 0.1);
+  const SolveResult result = matcher.match(still_scan(thicket, truth, noise), loose(truth.retract(offset(0.1, 1.0))));
+  EXPECT_EQ(result.spectrum.well_conditioned, 6);
+  const Vector6d error = truth.local(result.pose);
+  // Some hundred points, each a decimetre off its partner.
+  EXPECT_LT(error.tail<3>().norm(), 0.03);
+  EXPECT_LT(error.head<3>().norm(), 0.3 * kDegree);
+}
+
 TEST(ScanMatcher, ForcedSixDofSolvesEvenTheAxisOfATunnel) {
   RandomStream noise(6, "lidar");
   const BoxWorld tunnel = testing::smooth_tunnel();

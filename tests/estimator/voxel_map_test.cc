@@ -75,5 +75,15 @@ TEST(VoxelMap, ForgetsByPathLengthButKeepsForThePicture) {
   EXPECT_EQ(points.size(), 3U);
 }
 
+TEST(VoxelMap, LosesWhatItForgetsIfToldSo) {
+  VoxelMap map(10.0, 0.4, VoxelMap::Forgotten::kLost);
+  map.insert(sample({1.0, 1.0, 0.0}), 0.0F, 0.0);
+  map.insert(sample({1.5, 1.0, 0.0}), 0.0F, 120.0);
+  map.forget_before(100.0);
+  std::vector<MapPoint> points;
+  map.collect(points);
+  EXPECT_EQ(points.size(), 1U);
+}
+
 }  // namespace
 }  // namespace plumbline

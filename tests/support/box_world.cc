@@ -112,6 +112,23 @@ BoxWorld avenue(double length_m) {
   return world;
 }
 
+BoxWorld thicket(double length_m) {
+  BoxWorld world;
+  world.boxes.push_back({{-200.0, -200.0, -1.2}, {length_m + 200.0, 200.0, 60.0}, true});
+  RandomStream place(10, "thicket");
+  for (const double side : {-1.0, 1.0}) {
+    for (double x = -8.0; x < length_m + 8.0; x += place.uniform(1.0, 2.5)) {
+      const Eigen::Vector3d middle(x, side * place.uniform(2.5, 6.0), place.uniform(-0.2, 1.2));
+      for (int leaf = 0; leaf < 120; ++leaf) {
+        const Eigen::Vector3d at = middle + Eigen::Vector3d(place.gaussian(), place.gaussian(), place.gaussian()) * 0.5;
+        const Eigen::Vector3d half(place.uniform(0.01, 0.15), place.uniform(0.01, 0.15), place.uniform(0.01, 0.15));
+        world.boxes.push_back({at - half, at + half, false});
+      }
+    }
+  }
+  return world;
+}
+
 LidarScan vlp16_scan(const BoxWorld& world, const Motion& motion, std::int64_t stamp_ns, const Pose& body_from_lidar,
                      double range_sigma_m, RandomStream& noise) {
   constexpr int kFirings = 1808;
