@@ -138,20 +138,12 @@ void add_line_rows(const Eigen::Vector3d& point_in_body, const MapLine& line, co
       line.across_2.dot(offset) / sigma_m, component_jacobian(line.across_2, point_in_body, world_from_body) / sigma_m);
 }
 
-std::optional<Eigen::Vector3d> clutter_partner(const NearestSamples& neighbours) {
+std::optional<MapLine> line_through_clutter(const NearestSamples& neighbours, const Eigen::Vector3d& unseen) {
   if (neighbours.size() < kLeastClutterNeighbours) return std::nullopt;
   const Eigen::Vector3d spread = scatter_of(all_positions(neighbours)).eigenvalues;
   if (spread[0] < kLeastThickness * spread[2]) return std::nullopt;
-  return neighbours[0].position;
-}
-
-void add_point_rows(const Eigen::Vector3d& point_in_body, const Eigen::Vector3d& partner, const Pose& world_from_body,
-                    double sigma_m, ResidualRows& rows) {
-  ResidualRows::Jacobian3 jacobian;
-  for (int axis = 0; axis < 3; ++axis) {
-    jacobian.row(axis) = component_jacobian(Eigen::Vector3d::Unit(axis), point_in_body, world_from_body) / sigma_m;
-  }
-  rows.add((world_from_body * point_in_body - partner) / sigma_m, jacobian);
+  const Eigen::Vector3d across = unseen.unitOrthogonal();
+  return MapLine{neighbours[0].position, across, unseen.cross(across).normalized()};
 }
 
 }  // namespace plumbline

@@ -53,9 +53,10 @@ struct FitLimits {
 std::optional<MapPlane> fit_plane(const NearestSamples& neighbours, const FitLimits& limits);
 std::optional<MapLine> fit_line(const NearestSamples& neighbours, const FitLimits& limits);
 
-/// The nearest neighbour's position, if the neighbours fill space. Points of a smooth surface have none: the nearest to
-/// each is one that the same beam left, and would hold the pose where it is along the surface.
-std::optional<Eigen::Vector3d> clutter_partner(const NearestSamples& neighbours);
+/// Where the neighbours fill space, the line through the nearest of them along `unseen`, the direction across the beams
+/// in which the scan's own spacing says nothing about what was met. Points of a smooth surface have none: the nearest
+/// to each is one that the same beam left, and would hold the pose where it is along the surface.
+std::optional<MapLine> line_through_clutter(const NearestSamples& neighbours, const Eigen::Vector3d& unseen);
 
 /// Distance to the plane (5.15), signed so that it is smooth at zero, over sigma.
 void add_plane_row(const Eigen::Vector3d& point_in_body, const MapPlane& plane, const Pose& world_from_body,
@@ -64,9 +65,5 @@ void add_plane_row(const Eigen::Vector3d& point_in_body, const MapPlane& plane, 
 /// Offset from the line (5.14) as its two components across the line, over sigma: their norm has no derivative at zero.
 void add_line_rows(const Eigen::Vector3d& point_in_body, const MapLine& line, const Pose& world_from_body,
                    double sigma_m, ResidualRows& rows);
-
-/// Offset from a map point, over sigma.
-void add_point_rows(const Eigen::Vector3d& point_in_body, const Eigen::Vector3d& partner, const Pose& world_from_body,
-                    double sigma_m, ResidualRows& rows);
 
 }  // namespace plumbline

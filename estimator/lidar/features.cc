@@ -151,9 +151,13 @@ class Extraction {
     for (int r = 0; r < table_.ring_count(); ++r) {
       for (int i = table_.ring_begin(r); i < table_.ring_end(r); ++i) {
         if (!is_clutter(i, r)) continue;
-        cells.add({table_.position(i), table_.intensity(i), Eigen::Vector3f::Zero(), 0.0F, seconds(i), r});
+        const Eigen::Vector3f along_ring = table_.beam(table_.run_end(i)) - table_.beam(table_.run_begin(i) - 1);
+        const Eigen::Vector3f across = table_.beam(i).cross(along_ring);
+        if (across.isZero()) continue;
+        cells.add({table_.position(i), table_.intensity(i), across.normalized(), 0.0F, seconds(i), r});
       }
     }
+    for (FeaturePoint& mean : cells.means) mean.normal.normalize();
     return std::move(cells.means);
   }
 

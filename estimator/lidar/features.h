@@ -13,11 +13,11 @@ namespace plumbline {
 struct FeaturePoint {
   Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< [m], in B at the scan's reference time
   float intensity = 0.0F;
-  Eigen::Vector3f normal =
-      Eigen::Vector3f::Zero();  ///< planes: unit, in B, towards the sensor; edges and clutter: zero
-  float spread_m = 0.0F;        ///< edges: standard deviation across the edge that the spacing of the beams adds
-  float offset_s = 0.0F;        ///< since the scan's stamp: when it was measured, of a plane's cell the mean
-  int ring = 0;                 ///< of its first return
+  /// Unit, in B. Planes: towards the sensor; clutter: across the beams of its ring; edges: zero.
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+  float spread_m = 0.0F;  ///< edges: standard deviation across the edge that the spacing of the beams adds
+  float offset_s = 0.0F;  ///< since the scan's stamp: when it was measured, of a plane's cell the mean
+  int ring = 0;           ///< of its first return
 };
 
 /// What matching uses of one scan (thesis 5.12 and the selection rules of ch. 4).

@@ -37,12 +37,6 @@ struct PlaneMatch {
   int ring;
 };
 
-struct PointMatch {
-  Eigen::Vector3d point_in_body;
-  Eigen::Vector3d partner;
-  int ring;
-};
-
 struct LineMatch {
   Eigen::Vector3d point_in_body;
   MapLine line;
@@ -114,24 +108,20 @@ class MapConstraints {
         sigma_m_(sigma_m),
         features_(features) {
     plane_matches_.reserve(features.planes.size());
-    line_matches_.reserve(features.edges.size());
-    point_matches_.reserve(features.clutter.size());
+    line_matches_.reserve(features.edges.size() + features.clutter.size());
   }
 
   void linearize(const Pose& world_from_body, ResidualRows& rows) {
     if (!searched_ || moved_far(world_from_body)) search(world_from_body);
     for (const PlaneMatch& m : plane_matches_) add_plane_row(m.point_in_body, m.plane, world_from_body, sigma_m_, rows);
     for (const LineMatch& m : line_matches_) add_line_rows(m.point_in_body, m.line, world_from_body, m.sigma_m, rows);
-    for (const PointMatch& m : point_matches_) {
-      add_point_rows(m.point_in_body, m.partner, world_from_body, kClutterSigma_m, rows);
-    }
   }
 
-  /// The rows that linearize() stacked last, not yet weighted: one per plane, then two per line, then three per point.
+  /// The rows that linearize() stacked last, not yet weighted: one per plane, then two per line.
   std::vector<MatchRow> match_rows(const Pose& world_from_body) const {
     const Eigen::Quaterniond body_from_world = world_from_body.rotation.conjugate();
     std::vector<MatchRow> rows;
-    rows.reserve(plane_matches_.size() + 2 * line_matches_.size() + 3 * point_matches_.size());
+    rows.reserve(plane_matches_.size() + 2 * line_matches_.size());
     for (const PlaneMatch& m : plane_matches_) {
       const double distance_m = m.plane.normal.dot(world_from_body * m.point_in_body) - m.plane.offset;
       rows.push_back({m.point_in_body, body_from_world * m.plane.normal, distance_m, sigma_m_, 1.0});
@@ -142,29 +132,9 @@ class MapConstraints {
         rows.push_back({m.point_in_body, body_from_world * across, across.dot(off), m.sigma_m, 1.0});
       }
     }
-    for (const PointMatch& m : point_matches_) {
-      const Eigen::Vector3d off = world_from_body * m.point_in_body - m.partner;
-      for (int axis = 0; axis < 3; ++axis) {
-        const Eigen::Vector3d along = body_from_world * Eigen::Vector3d::Unit(axis);
-        rows.push_back({m.point_in_body, along, off[axis], kClutterSigma_m, 1.0});
-      }
-    }
     return rows;
   }
-  /// Which feature each of match_rows() belongs to.
-  std::vector<std::size_t> features_of_rows() const {
-    std::vector<std::size_t> features;
-    std::size_t feature = 0;
-    const auto add = [&](std::size_t count, int rows_each) {
-      for (const std::size_t end = feature + count; feature < end; ++feature) {
-        features.insert(features.end(), static_cast<std::size_t>(rows_each), feature);
-      }
-    };
-    add(plane_matches_.size(), 1);
-    add(line_matches_.size(), 2);
-    add(point_matches_.size(), 3);
-    return features;
-  }
+  std::size_t plane_count() const { return plane_matches_.size(); }
 
   /// To first order: J^T of the rows times their change per metre of motion and bias, summed over each ring, since all
   /// of a ring err alike, and over all.
@@ -208,10 +178,8 @@ class MapConstraints {
   /// In the order of the rows.
   std::pair<Eigen::Vector3d, int> feature(std::size_t at) const {
     if (at < plane_matches_.size()) return {plane_matches_[at].point_in_body, plane_matches_[at].ring};
-    at -= plane_matches_.size();
-    if (at < line_matches_.size()) return {line_matches_[at].point_in_body, line_matches_[at].ring};
-    const PointMatch& point = point_matches_[at - line_matches_.size()];
-    return {point.point_in_body, point.ring};
+    const LineMatch& line = line_matches_[at - plane_matches_.size()];
+    return {line.point_in_body, line.ring};
   }
 
   bool moved_far(const Pose& pose) const {
@@ -224,10 +192,9 @@ class MapConstraints {
     searched_at_ = world_from_body;
     plane_matches_.clear();
     line_matches_.clear();
-    point_matches_.clear();
     for (const FeaturePoint& f : features_.planes) match_plane(f, world_from_body);
     for (const FeaturePoint& f : features_.edges) match_line(f, world_from_body);
-    for (const FeaturePoint& f : features_.clutter) match_point(f, world_from_body);
+    for (const FeaturePoint& f : features_.clutter) match_clutter(f, world_from_body);
   }
 
   void match_plane(const FeaturePoint& feature, const Pose& world_from_body) {
@@ -248,11 +215,12 @@ class MapConstraints {
     line_matches_.push_back({point, *line, sigma_m, feature.ring});
   }
 
-  void match_point(const FeaturePoint& feature, const Pose& world_from_body) {
+  void match_clutter(const FeaturePoint& feature, const Pose& world_from_body) {
     const Eigen::Vector3d point = feature.position.cast<double>();
     NearestSamples nearest(kClutterNeighbours, kClutterReach_m, Eigen::Vector3f::Zero());
     clutter_.nearest(world_from_body * point, kClutterReach_m, nearest);
-    if (const auto partner = clutter_partner(nearest)) point_matches_.push_back({point, *partner, feature.ring});
+    const auto line = line_through_clutter(nearest, world_from_body.rotation * feature.normal.cast<double>());
+    if (line) line_matches_.push_back({point, *line, kClutterSigma_m, feature.ring});
   }
 
   const VoxelMap& edges_;
@@ -266,7 +234,6 @@ class MapConstraints {
   Pose searched_at_;
   std::vector<PlaneMatch> plane_matches_;
   std::vector<LineMatch> line_matches_;
-  std::vector<PointMatch> point_matches_;
 };
 
 }  // namespace
@@ -288,20 +255,20 @@ SolveResult ScanMatcher::match(const FeatureCloud& features, const PosePrior& wo
   m.clutter.prepare(in_world(used.clutter, world_from_body.mean));
   MapConstraints constraints(m.edges, m.planes, m.clutter, m.edge_limits, m.plane_limits, m.sigma_m, used);
   m.rows.clear();
-  std::vector<std::size_t> feature_of_row;
+  std::size_t planes = 0;
   const SolveResult solved = solve(
       world_from_body.mean, world_from_body,
       [&](const Pose& pose, ResidualRows& rows) {
         constraints.linearize(pose, rows);
         if (m.rows.empty()) {
           m.rows = constraints.match_rows(pose);
-          feature_of_row = constraints.features_of_rows();
+          planes = constraints.plane_count();
         }
         if (further_rows) further_rows(pose, rows);
       },
       m.options);
   for (std::size_t i = 0; i < m.rows.size(); ++i) {
-    const std::size_t feature = feature_of_row[i];
+    const std::size_t feature = i < planes ? i : planes + (i - planes) / 2;
     m.rows[i].weight = feature < solved.weights_at_guess.size() ? solved.weights_at_guess[feature] : 0.0;
   }
   m.drift = constraints.drift(solved, m.body_from_lidar.translation, m.bias_sigma_m);
@@ -335,7 +302,9 @@ void ScanMatcher::insert(const FeatureCloud& features, const Pose& world_from_bo
   };
   for (const FeaturePoint& f : features.edges) merge(f, m.edges);
   for (const FeaturePoint& f : features.planes) merge(f, m.planes);
-  for (const FeaturePoint& f : features.clutter) merge(f, m.clutter);
+  for (const FeaturePoint& f : features.clutter) {
+    m.clutter.insert({world_from_body * f.position.cast<double>(), Eigen::Vector3f::Zero()}, f.intensity, path_m);
+  }
 }
 
 std::vector<MapPoint> ScanMatcher::map() const {

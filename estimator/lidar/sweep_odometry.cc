@@ -105,7 +105,7 @@ class SweepConstraints {
     const LinearMotion motion(predicted_, reference_from_body);
     for (const FeaturePoint& f : features_.planes) add_plane(f, motion, rows);
     for (const FeaturePoint& f : features_.edges) add_line(f, motion, rows);
-    for (const FeaturePoint& f : features_.clutter) add_point(f, motion, rows);
+    for (const FeaturePoint& f : features_.clutter) add_clutter(f, motion, rows);
     doubt_m_ = doubt_m_ > 0.05 ? 0.25 * doubt_m_ : 0.0;
   }
 
@@ -124,30 +124,27 @@ class SweepConstraints {
   }
 
   void add_line(const FeaturePoint& f, const LinearMotion& motion, ResidualRows& rows) const {
-    const Eigen::Vector3d point = f.position.cast<double>();
-    const Eigen::Vector3d placed = motion.place(point, share_of(f));
     NearestSamples nearest(kLineNeighbours, reach_of(f, doubt_m_), Eigen::Vector3f::Zero());
-    edges_.search(placed, nearest);
-    const auto line = fit_line(nearest, edge_limits_);
-    if (!line) return;
-    const double sigma_m = std::hypot(sigma_m_, static_cast<double>(f.spread_m));
-    const Eigen::Vector3d offset = placed - line->point;
-    rows.add(line->across_1.dot(offset) / sigma_m, motion.jacobian(line->across_1, point, share_of(f)) / sigma_m,
-             line->across_2.dot(offset) / sigma_m, motion.jacobian(line->across_2, point, share_of(f)) / sigma_m);
+    edges_.search(motion.place(f.position.cast<double>(), share_of(f)), nearest);
+    if (const auto line = fit_line(nearest, edge_limits_)) {
+      add_line_rows(f, *line, std::hypot(sigma_m_, static_cast<double>(f.spread_m)), motion, rows);
+    }
   }
 
-  void add_point(const FeaturePoint& f, const LinearMotion& motion, ResidualRows& rows) const {
-    const Eigen::Vector3d point = f.position.cast<double>();
-    const Eigen::Vector3d placed = motion.place(point, share_of(f));
+  void add_clutter(const FeaturePoint& f, const LinearMotion& motion, ResidualRows& rows) const {
     NearestSamples nearest(kClutterNeighbours, kClutterReach_m + doubt_m_, Eigen::Vector3f::Zero());
-    clutter_.search(placed, nearest);
-    const auto partner = clutter_partner(nearest);
-    if (!partner) return;
-    ResidualRows::Jacobian3 jacobian;
-    for (int axis = 0; axis < 3; ++axis) {
-      jacobian.row(axis) = motion.jacobian(Eigen::Vector3d::Unit(axis), point, share_of(f)) / kClutterSigma_m;
+    clutter_.search(motion.place(f.position.cast<double>(), share_of(f)), nearest);
+    if (const auto line = line_through_clutter(nearest, f.normal.cast<double>())) {
+      add_line_rows(f, *line, kClutterSigma_m, motion, rows);
     }
-    rows.add((placed - *partner) / kClutterSigma_m, jacobian);
+  }
+
+  void add_line_rows(const FeaturePoint& f, const MapLine& line, double sigma_m, const LinearMotion& motion,
+                     ResidualRows& rows) const {
+    const Eigen::Vector3d point = f.position.cast<double>();
+    const Eigen::Vector3d offset = motion.place(point, share_of(f)) - line.point;
+    rows.add(line.across_1.dot(offset) / sigma_m, motion.jacobian(line.across_1, point, share_of(f)) / sigma_m,
+             line.across_2.dot(offset) / sigma_m, motion.jacobian(line.across_2, point, share_of(f)) / sigma_m);
   }
 
   const PointTree& edges_;

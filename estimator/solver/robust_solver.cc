@@ -32,14 +32,6 @@ void ResidualRows::add(double residual_1, const Vector6d& jacobian_1, double res
   jacobians_.push_back(jacobian_2);
 }
 
-void ResidualRows::add(const Eigen::Vector3d& residuals, const Jacobian3& jacobians) {
-  first_row_.push_back(row_count());
-  for (int i = 0; i < 3; ++i) {
-    residuals_.push_back(residuals[i]);
-    jacobians_.emplace_back(jacobians.row(i).transpose());
-  }
-}
-
 void ResidualRows::append(const ResidualRows& other, const Matrix6d& d_other_d_pose) {
   for (const int row : other.first_row_) first_row_.push_back(row_count() + row);
   residuals_.insert(residuals_.end(), other.residuals_.begin(), other.residuals_.end());

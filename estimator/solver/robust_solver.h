@@ -15,16 +15,12 @@ namespace plumbline {
 /// Rows added with one call belong to one feature and share one robust weight.
 class ResidualRows {
  public:
-  using Jacobian3 = Eigen::Matrix<double, 3, 6>;
-
   void clear();
   void reserve(int rows);
   /// @param d_residual_d_pose  with respect to a right perturbation of the pose, [rotation; translation]
   void add(double residual, const Vector6d& d_residual_d_pose);
   /// Two rows of one feature.
   void add(double residual_1, const Vector6d& jacobian_1, double residual_2, const Vector6d& jacobian_2);
-  /// Three rows of one feature.
-  void add(const Eigen::Vector3d& residuals, const Jacobian3& jacobians);
 
   /// The rows of a problem whose pose moves with this one's: its perturbation is d_other_d_pose times ours.
   void append(const ResidualRows& other, const Matrix6d& d_other_d_pose);

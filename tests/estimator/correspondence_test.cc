@@ -52,22 +52,6 @@ TEST(Correspondence, LineRowJacobiansMatchCentralDifferencesAlsoOnTheLine) {
   }
 }
 
-TEST(Correspondence, PointRowJacobiansMatchCentralDifferences) {
-  const Eigen::Vector3d partner(1.0, 2.0, 3.0);
-  const auto rows_at = [&](const Pose& pose) {
-    ResidualRows rows;
-    add_point_rows(kPoint, partner, pose, 0.1, rows);
-    return rows;
-  };
-  ASSERT_EQ(rows_at({}).feature_count(), 1);
-  for (const Pose& pose : poses()) {
-    for (const int r : {0, 1, 2}) {
-      testing::expect_jacobian_near([&](const Pose& p) { return rows_at(p).residual(r); }, pose,
-                                    rows_at(pose).jacobian(r));
-    }
-  }
-}
-
 NearestSamples offered(const std::vector<MapSample>& samples) {
   NearestSamples nearest(NearestSamples::kCapacity, 100.0, Eigen::Vector3f::Zero());
   for (const MapSample& s : samples) nearest.offer(s.position.squaredNorm(), s);
@@ -143,7 +127,7 @@ TEST(Correspondence, OfTwoParallelEdgesTheNearerOnesLineIsFound) {
 
 /// On a wall the nearest map point is the one that the same beam left: to be drawn to it is to stay where one is.
 TEST(Correspondence, AClutterPointHasAPartnerInsideFoliageButNoneOnAWall) {
-  EXPECT_FALSE(clutter_partner(offered(grid(4, 0.15, 0.01))));
+  EXPECT_FALSE(line_through_clutter(offered(grid(4, 0.15, 0.01)), Eigen::Vector3d::UnitZ()));
   RandomStream random(2, "foliage");
   std::vector<MapSample> leaves;
   for (int i = 0; i < 16; ++i) {
@@ -153,9 +137,13 @@ TEST(Correspondence, AClutterPointHasAPartnerInsideFoliageButNoneOnAWall) {
     return a.position.squaredNorm() < b.position.squaredNorm();
   };
   const MapSample nearest = *std::min_element(leaves.begin(), leaves.end(), nearer);
-  const auto partner = clutter_partner(offered(leaves));
-  ASSERT_TRUE(partner);
-  EXPECT_EQ(*partner, nearest.position);
+  const Eigen::Vector3d unseen = Eigen::Vector3d(0.1, -0.3, 1.0).normalized();
+  const auto line = line_through_clutter(offered(leaves), unseen);
+  ASSERT_TRUE(line);
+  EXPECT_EQ(line->point, nearest.position);
+  Eigen::Matrix3d axes;
+  axes << line->across_1, line->across_2, unseen;
+  EXPECT_TRUE(axes.isUnitary(1e-12)) << "nothing is asked along the unseen direction";
 }
 
 }  // namespace
