@@ -42,6 +42,14 @@ class LoamRun {
     for (; clock_ns_ < stamp_ns; clock_ns_ += kClock_ns) estimator_->add(ImuSample{clock_ns_ + kClock_ns, {}, {}});
     for (const Odometry& o : estimator_->take()) poses_[o.stamp_ns] = o.world_from_body;
   }
+  /// Sweeps of the turned scanner, and the output after them.
+  void follow(const testing::BoxWorld& world, const Motion& motion, std::int64_t sweeps, std::uint64_t seed) {
+    RandomStream noise(seed, "lidar");
+    for (std::int64_t sweep = 0; sweep < sweeps; ++sweep) {
+      for (const LidarScan& part : testing::turned_scanner_sweep(world, motion, sweep, 0.01, noise)) add(part);
+    }
+    wait_until(sweeps * 1'000'000'000 + kClock_ns);
+  }
   const Pose& at(std::int64_t stamp_ns) const { return poses_.at(stamp_ns); }
   const Estimator& estimator() const { return *estimator_; }
 
@@ -66,12 +74,8 @@ Motion turning_walk(double speed_mps, double rate) {
 TEST(Loam, FollowsATurnedScannerWithoutAnImu) {
   const testing::BoxWorld room = testing::furnished_room();
   const Motion motion = turning_walk(0.4, 0.1);
-  RandomStream noise(1, "lidar");
   LoamRun run(calibration_of(40, 1.0));
-  for (std::int64_t sweep = 0; sweep < 6; ++sweep) {
-    for (const LidarScan& part : testing::turned_scanner_sweep(room, motion, sweep, 0.01, noise)) run.add(part);
-  }
-  run.wait_until(6'010'000'000);
+  run.follow(room, motion, 6, 1);
   // Two metres and half a radian of motion, in motion from the first sample on, measured to 1 cm a return.
   const Vector6d error = run.error(motion, 2'100'000'000, 6'010'000'000);
   EXPECT_LT(error.tail<3>().norm(), 0.03);
@@ -86,12 +90,8 @@ TEST(Loam, SetsOutAmongLeavesWithoutAnImu) {
     const double since = std::max(0.0, t - 2.0);
     return Pose{exp_so3({0.0, 0.0, 0.05 * std::sin(since)}), {0.5 * since, 0.0, 0.2}};
   };
-  RandomStream noise(5, "lidar");
   LoamRun run(calibration_of(40, 1.0));
-  for (std::int64_t sweep = 0; sweep < 8; ++sweep) {
-    for (const LidarScan& part : testing::turned_scanner_sweep(thicket, motion, sweep, 0.01, noise)) run.add(part);
-  }
-  run.wait_until(8'010'000'000);
+  run.follow(thicket, motion, 8, 5);
   const Vector6d error = run.error(motion, 1'100'000'000, 8'010'000'000);
   // Of three metres; a start that is not noticed costs half a metre a second.
   EXPECT_LT(error.tail<3>().norm(), 0.15);
@@ -101,12 +101,8 @@ TEST(Loam, SetsOutAmongLeavesWithoutAnImu) {
 TEST(Loam, GivesTheMotionWithinASweep) {
   const testing::BoxWorld room = testing::furnished_room();
   const Motion motion = turning_walk(0.4, 0.1);
-  RandomStream noise(2, "lidar");
   LoamRun run(calibration_of(40, 1.0));
-  for (std::int64_t sweep = 0; sweep < 4; ++sweep) {
-    for (const LidarScan& part : testing::turned_scanner_sweep(room, motion, sweep, 0.01, noise)) run.add(part);
-  }
-  run.wait_until(4'010'000'000);
+  run.follow(room, motion, 4, 2);
   for (std::int64_t at_ns = 3'000'000'000; at_ns < 3'900'000'000; at_ns += 100'000'000) {
     EXPECT_LT(run.error(motion, at_ns, at_ns + 100'000'000).tail<3>().norm(), 0.04) << at_ns;
   }
