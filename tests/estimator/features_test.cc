@@ -122,7 +122,8 @@ TEST(Features, APieceOfAWallIsNoPole) {
   Calibration calibration;
   calibration.lidar_range_sigma_m = kRangeSigma;
   RandomStream noise(1, "lidar");
-  LidarScan scan = testing::vlp16_scan(world, [](double) { return Pose{}; }, 0, {}, kRangeSigma, noise);
+  LidarScan scan = testing::vlp16_scan(
+      world, [](double) { return Pose{}; }, 0, {}, kRangeSigma, noise);
   // Of every 1.5 degrees of the sweep the first half is kept.
   std::erase_if(scan.points, [](const LidarPoint& p) {
     const double turns = std::atan2(p.position.y(), p.position.x()) * 120.0 / M_PI;

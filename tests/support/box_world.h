@@ -48,7 +48,8 @@ BoxWorld pillared_hall(double length_m);
 /// Level ground with a row of trunks of 10 to 20 cm radius on either side of the x axis, for a drive of `length_m`.
 BoxWorld avenue(double length_m);
 
-/// Level ground and, on either side of the x axis, plates of a leaf spray's size in clumps: no edge, no plane, no trunk.
+/// Level ground and, on either side of the x axis, plates of a leaf spray's size in clumps: no edge, no plane, no
+/// trunk.
 BoxWorld thicket(double length_m);
 
 /// A motion as the true world_from_body over time [s].
