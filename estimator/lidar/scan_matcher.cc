@@ -29,7 +29,7 @@ constexpr double kSearchAgain_rad = 0.003;
 // all returns share, a quarter for one of each ring.
 constexpr double kBiasShare = 0.5;
 
-constexpr double kClutterResolution_m = 0.1;
+constexpr double kClutterResolution_m = 0.1;  // as dense as the scan gives it
 
 struct PlaneMatch {
   Eigen::Vector3d point_in_body;

@@ -46,7 +46,8 @@ struct MatchDrift {
   Matrix6d covariance(const Eigen::Vector3d& step_in_body) const;
 };
 
-/// Scan-to-map matching (thesis 5.3, eqs. 5.13-5.15): edge points to lines and planar points to planes of a voxel map.
+/// Scan-to-map matching (thesis 5.3, eqs. 5.13-5.15): edge points to lines, planar points to
+/// planes and clutter to points of a voxel map.
 class ScanMatcher {
  public:
   ScanMatcher(const Calibration& calibration, const ScanMatcherConfig& config, bool remapping);

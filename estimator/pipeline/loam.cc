@@ -1,6 +1,7 @@
 #include "estimator/pipeline/loam.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "estimator/lidar/deskew.h"
@@ -20,7 +21,7 @@ constexpr int kFirstSweepRounds = 3;
 constexpr int kFirstEffort = 6;
 // A carrier does not jump: beyond so many sigma of what steady motion foresees, neighbours were mistaken.
 constexpr double kLargestSurprise = 4.0;
-constexpr int kClutterBudget = 2500;  // a sweep of a second sees more of it
+constexpr int kMatchedClutter = 2500;  // a sweep of a second sees more of it
 
 // Where the lidar alone tells the pose, odometry may be wrong by this much when it comes to matching with the map.
 constexpr double kOdometrySigma_m = 0.1;
@@ -37,7 +38,7 @@ MessageUse use_of(ImuUse imu) {
 ScanMatcherConfig matcher_config() {
   ScanMatcherConfig config;
   config.largest_plane_disagreement = 1.0;
-  config.clutter_budget = kClutterBudget;
+  config.clutter_budget = kMatchedClutter;
   return config;
 }
 
@@ -134,9 +135,10 @@ void Loam::follow(const LidarScan& part, std::int64_t now_ns) {
   const Pose onwards = correction(now_ns) * predicted;
   const PosePrior prior{predicted, motion_covariance(now_ns)};
   motion_ = odometry_.solve(now_ns, prior, onwards, effort());
-  const Vector6d surprise = predicted.local(motion_.pose);
-  const bool jumps = surprise.dot(prior.covariance.ldlt().solve(surprise)) > kLargestSurprise * kLargestSurprise;
-  if (steady_ && jumps) {
+  // Not the turn: attitude that is read has no play at all.
+  const double surprise_m = predicted.local(motion_.pose).tail<3>().norm();
+  const double sigma_m = std::sqrt(prior.covariance.bottomRightCorner<3, 3>().trace() / 3.0);
+  if (steady_ && surprise_m > kLargestSurprise * sigma_m) {
     motion_ = {};
     motion_.pose = onwards;
   }
