@@ -1,8 +1,9 @@
 #include "sensors/information.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "estimator/geometry/symmetric_eigen.h"
 
 namespace plumbline {
 namespace {
@@ -62,11 +63,11 @@ DegeneracyLabel::Class DegeneracyLabel::class_of(double excess) {
 DegeneracyLabel label(const Matrix6d& information, const DegeneracyLimits& limits) {
   const Vector6d scale = one_limit(limits);
   const Matrix6d scaled = scale.asDiagonal() * information * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(scaled);
+  const SymmetricEigen<Matrix6d> eigen(scaled);
   DegeneracyLabel label;
   constexpr double kLeast = 1.0 / (kLargestExcess * kLargestExcess);
-  label.excess = eigen.eigenvalues().cwiseMax(kLeast).cwiseSqrt().cwiseInverse();
-  label.directions = scale.asDiagonal() * eigen.eigenvectors();
+  label.excess = eigen.values.cwiseMax(kLeast).cwiseSqrt().cwiseInverse();
+  label.directions = scale.asDiagonal() * eigen.vectors;
   return label;
 }
 

@@ -1,12 +1,12 @@
 #include "estimator/imu/inertial_filter.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "estimator/geometry/interpolation.h"
 #include "estimator/geometry/so3.h"
+#include "estimator/geometry/symmetric_eigen.h"
 #include "estimator/imu/squared.h"
 
 namespace plumbline {
@@ -31,9 +31,9 @@ constexpr double kSharedDepthError = 0.01;
 /// Forced 6-DOF knows no conditioning: its solution replaces the prediction along every direction (thesis 5.7 with all
 /// coefficients one). Directions below the middle of the spectrum are taken as sure as the middle.
 Eigen::MatrixXd lifted_to_the_middle(const Eigen::MatrixXd& information) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(information);
-  const double middle = eigen.eigenvalues()[eigen.eigenvalues().size() / 2];
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(middle).asDiagonal() * eigen.eigenvectors().transpose();
+  const SymmetricEigen<Eigen::MatrixXd> eigen(information);
+  const double middle = eigen.values[eigen.values.size() / 2];
+  return eigen.vectors * eigen.values.cwiseMax(middle).asDiagonal() * eigen.vectors.transpose();
 }
 
 }  // namespace

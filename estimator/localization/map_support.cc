@@ -1,8 +1,8 @@
 #include "estimator/localization/map_support.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "estimator/geometry/symmetric_eigen.h"
 #include "estimator/solver/degeneracy.h"
 
 namespace plumbline {
@@ -32,9 +32,8 @@ double map_support(const Matrix6d& expected, const Matrix6d& borne_out, double d
   const Eigen::MatrixXd whitened =
       spectrum.eigenvectors.rightCols(spectrum.well_conditioned) *
       spectrum.eigenvalues.tail(spectrum.well_conditioned).cwiseSqrt().cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-      Eigen::MatrixXd(whitened.transpose() * borne_out * whitened), Eigen::EigenvaluesOnly);
-  return eigen.info() == Eigen::Success ? std::clamp(eigen.eigenvalues()[0], 0.0, 1.0) : 0.0;
+  const SymmetricEigen<Eigen::MatrixXd> eigen(whitened.transpose() * borne_out * whitened);
+  return eigen.converged ? std::clamp(eigen.values[0], 0.0, 1.0) : 0.0;
 }
 
 }  // namespace plumbline

@@ -1,6 +1,6 @@
 #include "estimator/solver/degeneracy.h"
 
-#include <Eigen/Eigenvalues>
+#include "estimator/geometry/symmetric_eigen.h"
 
 namespace plumbline {
 
@@ -12,10 +12,10 @@ Matrix6d Spectrum::projector() const {
 Spectrum analyse(const Matrix6d& information, double threshold) {
   Spectrum spectrum;
   if (!information.allFinite()) return spectrum;
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(information);
-  if (eigen.info() != Eigen::Success) return spectrum;
-  spectrum.eigenvalues = eigen.eigenvalues().cwiseMax(0.0);
-  spectrum.eigenvectors = eigen.eigenvectors();
+  const SymmetricEigen<Matrix6d> eigen(information);
+  if (!eigen.converged) return spectrum;
+  spectrum.eigenvalues = eigen.values.cwiseMax(0.0);
+  spectrum.eigenvectors = eigen.vectors;
   for (int i = 0; i < 6; ++i) spectrum.well_conditioned += spectrum.eigenvalues[i] >= threshold ? 1 : 0;
   return spectrum;
 }

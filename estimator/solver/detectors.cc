@@ -1,6 +1,5 @@
 #include "estimator/solver/detectors.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -8,6 +7,7 @@
 #include <numeric>
 
 #include "estimator/geometry/so3.h"
+#include "estimator/geometry/symmetric_eigen.h"
 
 namespace plumbline {
 namespace {
@@ -44,18 +44,18 @@ void sort(Detection& detection) {
 
 /// Eigenpairs of the whole matrix, each scored.
 Detection of_eigenpairs(const Matrix6d& matrix, const std::function<double(double, const Vector6d&)>& score) {
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(matrix);
+  const SymmetricEigen<Matrix6d> eigen(matrix);
   Detection detection;
   for (int i = 0; i < 6; ++i) {
-    detection.scores.push_back(score(std::max(0.0, eigen.eigenvalues()[i]), eigen.eigenvectors().col(i)));
-    detection.directions.emplace_back(eigen.eigenvectors().col(i));
+    detection.scores.push_back(score(std::max(0.0, eigen.values[i]), eigen.vectors.col(i)));
+    detection.directions.emplace_back(eigen.vectors.col(i));
   }
   sort(detection);
   return detection;
 }
 
 double largest_eigenvalue(const Matrix6d& matrix) {
-  return std::max(kTiny, Eigen::SelfAdjointEigenSolver<Matrix6d>(matrix).eigenvalues()[5]);
+  return std::max(kTiny, SymmetricEigen<Matrix6d>(matrix).values[5]);
 }
 
 enum class Part { kRotation, kTranslation };
@@ -71,12 +71,11 @@ Detection of_blocks(const Block& rotation, const Block& translation,
                     const std::function<double(Part, double value, double largest, const Eigen::Vector3d&)>& score) {
   Detection detection;
   for (const Part part : {Part::kRotation, Part::kTranslation}) {
-    const Eigen::SelfAdjointEigenSolver<Block> eigen(part == Part::kRotation ? rotation : translation);
+    const SymmetricEigen<Block> eigen(part == Part::kRotation ? rotation : translation);
     for (int i = 0; i < 3; ++i) {
-      const double largest = std::max(kTiny, eigen.eigenvalues()[2]);
-      detection.scores.push_back(
-          score(part, std::max(0.0, eigen.eigenvalues()[i]), largest, eigen.eigenvectors().col(i)));
-      detection.directions.push_back(in_part(part, eigen.eigenvectors().col(i)));
+      const double largest = std::max(kTiny, eigen.values[2]);
+      detection.scores.push_back(score(part, std::max(0.0, eigen.values[i]), largest, eigen.vectors.col(i)));
+      detection.directions.push_back(in_part(part, eigen.vectors.col(i)));
     }
   }
   sort(detection);
@@ -106,11 +105,11 @@ Detection schur(const std::vector<MatchRow>& rows) {
   const Block tt = h.bottomRightCorner<3, 3>();
   const Block rt = h.topRightCorner<3, 3>();
   const auto pseudo_inverse = [](const Block& block) -> Block {
-    const Eigen::SelfAdjointEigenSolver<Block> eigen(block);
-    const double least = 1e-9 * std::max(kTiny, eigen.eigenvalues()[2]);
+    const SymmetricEigen<Block> eigen(block);
+    const double least = 1e-9 * std::max(kTiny, eigen.values[2]);
     const Eigen::Vector3d inverse =
-        eigen.eigenvalues().unaryExpr([&](double value) { return value > least ? 1.0 / value : 0.0; });
-    return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+        eigen.values.unaryExpr([&](double value) { return value > least ? 1.0 / value : 0.0; });
+    return eigen.vectors * inverse.asDiagonal() * eigen.vectors.transpose();
   };
   return of_blocks(rr - rt * pseudo_inverse(tt) * rt.transpose(), tt - rt.transpose() * pseudo_inverse(rr) * rt,
                    [](Part, double value, double largest, const Eigen::Vector3d&) { return value / largest; });
@@ -161,16 +160,16 @@ Detection x_icp(const std::vector<MatchRow>& rows) {
 Detection coin_lio(const std::vector<MatchRow>& rows) {
   Block tt = Block::Zero();
   for (const MatchRow& row : rows) tt += row.normal * row.normal.transpose();
-  const Eigen::SelfAdjointEigenSolver<Block> eigen(tt);
+  const SymmetricEigen<Block> eigen(tt);
   Detection detection;
   for (int i = 0; i < 3; ++i) {
     double sum = 0.0;
     for (const MatchRow& row : rows) {
-      const double share = std::abs(row.normal.dot(eigen.eigenvectors().col(i)));
+      const double share = std::abs(row.normal.dot(eigen.vectors.col(i)));
       if (share > 0.5) sum += share;
     }
     detection.scores.push_back(sum);
-    detection.directions.push_back(in_part(Part::kTranslation, eigen.eigenvectors().col(i)));
+    detection.directions.push_back(in_part(Part::kTranslation, eigen.vectors.col(i)));
   }
   sort(detection);
   return detection;

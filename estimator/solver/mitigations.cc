@@ -1,10 +1,11 @@
 #include "estimator/solver/mitigations.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "estimator/geometry/symmetric_eigen.h"
 
 namespace plumbline {
 namespace {
@@ -33,12 +34,12 @@ Problem problem_of(const std::vector<MatchRow>& rows) {
 /// Sum over the eigenpairs of coefficient(lambda, along) u, `along` being the plain step's part along u.
 template <typename Coefficient>
 Vector6d by_eigenpairs(const Problem& problem, Coefficient coefficient) {
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(problem.information);
+  const SymmetricEigen<Matrix6d> eigen(problem.information);
   Vector6d step = Vector6d::Zero();
   for (int i = 0; i < 6; ++i) {
-    const double value = eigen.eigenvalues()[i];
+    const double value = eigen.values[i];
     if (value < kNoInformation) continue;
-    const Vector6d u = eigen.eigenvectors().col(i);
+    const Vector6d u = eigen.vectors.col(i);
     step += coefficient(value, -u.dot(problem.gradient) / value, u) * u;
   }
   return step;

@@ -1,10 +1,10 @@
 #include "tools/verify/lidar_spread_check.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "estimator/geometry/symmetric_eigen.h"
 #include "scenarios/catalogue.h"
 #include "sensors/lidar.h"
 
@@ -24,8 +24,8 @@ Patch patch_of(const std::vector<Eigen::Vector3d>& points) {
   for (const Eigen::Vector3d& point : points) mean += point / static_cast<double>(points.size());
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const Eigen::Vector3d& point : points) scatter += (point - mean) * (point - mean).transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
-  const Eigen::Vector3d normal = solver.eigenvectors().col(0);
+  const SymmetricEigen<Eigen::Matrix3d> eigen(scatter);
+  const Eigen::Vector3d normal = eigen.vectors.col(0);
   Patch patch;
   for (const Eigen::Vector3d& point : points) {
     const double along_beam_m = normal.dot(point - mean) / normal.dot(point.normalized());
