@@ -28,8 +28,8 @@ double ease(double t) {
 }
 
 /// The valley follows the river, which swings a little; under the bridge the bed is level.
-Ground valley_ground(double depth, std::uint64_t seed) {
-  Ground ground;
+Terrain valley_ground(double depth, std::uint64_t seed) {
+  Terrain ground;
   ground.low = {-kReach_m, -kReach_m};
   ground.high = {kReach_m, kReach_m};
   ground.cell_m = 2.0;
@@ -102,7 +102,7 @@ void add_arches(Scenery& scenery, RandomStream& stream, double depth) {
   }
 }
 
-void add_banks(Outdoors& outdoors, const Ground& ground, double depth, double density, std::uint64_t seed) {
+void add_banks(Outdoors& outdoors, const Terrain& ground, double depth, double density, std::uint64_t seed) {
   RandomStream stream(seed, "bridge/banks");
   const auto on_ground = [&](double x, double y) { return Vector3d(x, y, height_on(ground, x, y)); };
   for (int i = 0; i < 130; ++i) {
@@ -162,7 +162,7 @@ Route flight_of(double depth) {
 
 SceneDescription build_bridge(const SceneValues& values, std::uint64_t world_seed) {
   const double depth = values.at("valley_depth_m");
-  const Ground ground = valley_ground(depth, derive_seed(world_seed, "bridge/land"));
+  const Terrain ground = valley_ground(depth, derive_seed(world_seed, "bridge/land"));
   Outdoors outdoors;
   add_ground(outdoors.scenery, ground);
   RandomStream stone(world_seed, "bridge/stone");

@@ -48,8 +48,8 @@ bool in_building(double x, double y) {
   return std::abs(y) < 2.0 && x > -end && x < kCorridor_m + end;
 }
 
-Ground make_ground(std::uint64_t seed) {
-  Ground ground;
+Terrain make_ground(std::uint64_t seed) {
+  Terrain ground;
   ground.low = {-160.0, -80.0};
   ground.high = {200.0, 190.0};
   ground.cell_m = 2.5;
@@ -79,7 +79,7 @@ std::vector<Vector2d> corners_of_loop() {
   return corners;
 }
 
-Route make_loop(const Ground& ground) {
+Route make_loop(const Terrain& ground) {
   std::vector<Vector3d> corners;
   for (const Vector2d& corner : corners_of_loop()) corners.emplace_back(corner.x(), corner.y(), 0.0);
   Route loop = make_route("loop", corners, 8.0, true);
@@ -121,7 +121,7 @@ void add_smooth_wall(Outdoors& outdoors, std::uint64_t seed) {
 }
 
 /// Trees and undergrowth to both sides of a way, which stays clear.
-void add_woods(Scenery& scenery, const Ground& ground, const std::vector<Vector2d>& way, const std::string& name,
+void add_woods(Scenery& scenery, const Terrain& ground, const std::vector<Vector2d>& way, const std::string& name,
                double density, std::uint64_t seed) {
   RandomStream stream(seed, "composite_loop/" + name);
   for (std::size_t leg = 1; leg < way.size(); ++leg) {
@@ -153,7 +153,7 @@ void add_woods(Scenery& scenery, const Ground& ground, const std::vector<Vector2
 }
 
 /// Lamps beside the trail, and floodlights on masts that no lidar of 30 m sees from the open stretches.
-void add_lamps(Outdoors& outdoors, const Ground& ground, std::uint64_t seed) {
+void add_lamps(Outdoors& outdoors, const Terrain& ground, std::uint64_t seed) {
   RandomStream stream(seed, "composite_loop/lamps");
   const auto foot_at = [&](const Vector2d& p) {
     return upright_frame({p.x(), p.y(), height_on(ground, p.x(), p.y())}, stream.uniform(0.0, 3.0));
@@ -173,7 +173,7 @@ void add_lamps(Outdoors& outdoors, const Ground& ground, std::uint64_t seed) {
 }
 
 SceneDescription build_composite_loop(const SceneValues& values, std::uint64_t world_seed) {
-  const Ground ground = make_ground(derive_seed(world_seed, "composite_loop/land"));
+  const Terrain ground = make_ground(derive_seed(world_seed, "composite_loop/land"));
   const double density = values.at("leaf_density");
   Outdoors outdoors;
   add_ground(outdoors.scenery, ground);

@@ -17,13 +17,13 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kReach_m = 120.0;
+constexpr double kLawnReach_m = 120.0;
 constexpr double kTour_m = 86.0;
 
-Ground lawn_ground(std::uint64_t seed) {
-  Ground ground;
-  ground.low = {-kReach_m, -kReach_m};
-  ground.high = {kReach_m, kReach_m};
+Terrain lawn_ground(std::uint64_t seed) {
+  Terrain ground;
+  ground.low = {-kLawnReach_m, -kLawnReach_m};
+  ground.high = {kLawnReach_m, kLawnReach_m};
   ground.cell_m = 2.0;
   ground.height = [seed](double x, double y) {
     const double away = std::clamp((std::hypot(x, y) - 40.0) / 60.0, 0.0, 1.0);
@@ -42,7 +42,7 @@ Vector2d draw_place(RandomStream& stream, double clear_m, double beyond_m) {
   return {reach * std::cos(bearing), reach * std::sin(bearing)};
 }
 
-void add_surroundings(Outdoors& outdoors, const Ground& ground, double clear_m, std::uint64_t seed) {
+void add_surroundings(Outdoors& outdoors, const Terrain& ground, double clear_m, std::uint64_t seed) {
   RandomStream stream(seed, "lawn/surroundings");
   const auto on_ground = [&](const Vector2d& p) { return Vector3d(p.x(), p.y(), height_on(ground, p.x(), p.y())); };
   constexpr double kCrown_m = 4.5;  // of the largest tree, with its sprays
@@ -71,7 +71,7 @@ void add_surroundings(Outdoors& outdoors, const Ground& ground, double clear_m, 
 }
 
 /// Two half circles and two straights, as long as promised.
-Route tour_of(const Ground& ground) {
+Route tour_of(const Terrain& ground) {
   constexpr double kTurn_m = 7.0;
   const double straight = 0.5 * (kTour_m - 2.0 * std::numbers::pi * kTurn_m);
   Route tour{.name = "tour", .points = {}, .closed = true};
@@ -91,7 +91,7 @@ Route tour_of(const Ground& ground) {
 }
 
 SceneDescription build_lawn(const SceneValues& values, std::uint64_t world_seed) {
-  const Ground ground = lawn_ground(derive_seed(world_seed, "lawn/land"));
+  const Terrain ground = lawn_ground(derive_seed(world_seed, "lawn/land"));
   Outdoors outdoors;
   add_ground(outdoors.scenery, ground);
   RandomStream stream(world_seed, "lawn/grass");

@@ -20,8 +20,8 @@ constexpr double kRowSpacing_m = 5.0;
 constexpr double kHeadland_m = 9.0;
 constexpr double kSurround_m = 45.0;
 
-Ground orchard_ground(double half_length, double half_width, std::uint64_t seed) {
-  Ground ground;
+Terrain orchard_ground(double half_length, double half_width, std::uint64_t seed) {
+  Terrain ground;
   ground.cell_m = 1.25;
   const auto cells = [&](double half) { return std::ceil(half / ground.cell_m) * ground.cell_m; };
   ground.low = {-cells(half_length + kSurround_m), -cells(half_width + kSurround_m)};
@@ -41,7 +41,8 @@ Ground orchard_ground(double half_length, double half_width, std::uint64_t seed)
   return ground;
 }
 
-void add_row(Scenery& scenery, const Ground& ground, double half_length, double y, double density, std::uint64_t seed) {
+void add_row(Scenery& scenery, const Terrain& ground, double half_length, double y, double density,
+             std::uint64_t seed) {
   RandomStream stream(seed, "orchard/row " + std::to_string(std::lround(2.0 * y)));
   for (double x = -half_length + stream.uniform(0.0, 1.0); x < half_length; x += stream.uniform(2.6, 3.9)) {
     if (stream.uniform() < 0.05) continue;  // a gap
@@ -62,7 +63,7 @@ void add_row(Scenery& scenery, const Ground& ground, double half_length, double 
 }
 
 /// Woods, a barn and fences around the orchard.
-void add_surroundings(Outdoors& outdoors, const Ground& ground, double half_length, double half_width,
+void add_surroundings(Outdoors& outdoors, const Terrain& ground, double half_length, double half_width,
                       std::uint64_t seed) {
   RandomStream stream(seed, "orchard/surroundings");
   const double x_edge = half_length + kHeadland_m + 3.0;
@@ -91,7 +92,7 @@ void add_surroundings(Outdoors& outdoors, const Ground& ground, double half_leng
 }
 
 /// Up one alley and down the next but one, as vehicles go: they could not turn into the next.
-Route tour_of(const Ground& ground, double half_length) {
+Route tour_of(const Terrain& ground, double half_length) {
   Route tour{.name = "tour", .points = {}, .closed = true};
   const auto add = [&](double x, double y) { tour.points.emplace_back(x, y, height_on(ground, x, y)); };
   const double end = half_length + 3.0;
@@ -114,7 +115,7 @@ SceneDescription build_orchard(const SceneValues& values, std::uint64_t world_se
   const double half_length = 0.5 * values.at("row_length_m");
   const int rows = 2 * static_cast<int>(values.at("row_pairs"));
   const double half_width = 0.5 * rows * kRowSpacing_m;
-  const Ground ground = orchard_ground(half_length, half_width, derive_seed(world_seed, "orchard/land"));
+  const Terrain ground = orchard_ground(half_length, half_width, derive_seed(world_seed, "orchard/land"));
   Outdoors outdoors;
   add_ground(outdoors.scenery, ground);
   for (int i = 0; i < rows; ++i) {

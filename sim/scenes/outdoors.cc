@@ -80,7 +80,7 @@ struct HeightGrid {
   }
 };
 
-HeightGrid sample_heights(const Ground& ground) {
+HeightGrid sample_heights(const Terrain& ground) {
   HeightGrid grid;
   grid.columns = static_cast<int>(std::lround((ground.high.x() - ground.low.x()) / ground.cell_m));
   grid.rows = static_cast<int>(std::lround((ground.high.y() - ground.low.y()) / ground.cell_m));
@@ -158,7 +158,7 @@ void add_far_land(Scenery& scenery, const RoadLine& line, double half_width_m, s
   }
 }
 
-void add_ground(Scenery& scenery, const Ground& ground) {
+void add_ground(Scenery& scenery, const Terrain& ground) {
   const HeightGrid grid = sample_heights(ground);
   const double base = *std::min_element(grid.z.begin(), grid.z.end()) - 3.0;
   const auto place = [&](int column, int row) {
@@ -186,7 +186,7 @@ void add_ground(Scenery& scenery, const Ground& ground) {
   }
 }
 
-double height_on(const Ground& ground, double x, double y) {
+double height_on(const Terrain& ground, double x, double y) {
   const double u = (x - ground.low.x()) / ground.cell_m;
   const double v = (y - ground.low.y()) / ground.cell_m;
   const double column = std::floor(u);

@@ -34,16 +34,16 @@ void add_far_land(Scenery& scenery, const RoadLine& line, double half_width_m, s
                   const std::function<double(double s)>& sunk);
 
 /// Ground over a rectangle in square cells, solid down to 3 m below its lowest place.
-struct Ground {
+struct Terrain {
   Eigen::Vector2d low = Eigen::Vector2d::Zero();
   Eigen::Vector2d high = Eigen::Vector2d::Zero();
   double cell_m = 2.0;
   std::function<double(double x, double y)> height;
   std::function<std::string(double x, double y)> material;  ///< at a cell's middle; empty: a hole
 };
-void add_ground(Scenery& scenery, const Ground& ground);
+void add_ground(Scenery& scenery, const Terrain& ground);
 
-/// Height of a Ground as laid: on its triangles.
-double height_on(const Ground& ground, double x, double y);
+/// Height of a Terrain as laid: on its triangles.
+double height_on(const Terrain& ground, double x, double y);
 
 }  // namespace plumbline

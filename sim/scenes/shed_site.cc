@@ -29,8 +29,8 @@ constexpr double kSecondShed_m = 100.0;  // x where the second shed begins
 constexpr double kTreeLine_m = 46.0;     // y between its two rows
 constexpr double kGap_m = 588.0;         // x of a gap in the right row, to fly in by
 
-Ground site_ground(double tree_line_m, std::uint64_t seed) {
-  Ground ground;
+Terrain site_ground(double tree_line_m, std::uint64_t seed) {
+  Terrain ground;
   ground.cell_m = 4.0;
   ground.low = {-80.0, -80.0};
   ground.high = {std::ceil((tree_line_m + 180.0) / 4.0) * 4.0, 120.0};
@@ -94,7 +94,7 @@ void add_shed(Scenery& scenery, RandomStream& stream, double x0) {
   }
 }
 
-void add_tree_line(Scenery& scenery, const Ground& ground, double length_m, double density, std::uint64_t seed) {
+void add_tree_line(Scenery& scenery, const Terrain& ground, double length_m, double density, std::uint64_t seed) {
   for (const double row : {-4.5, 4.5}) {
     RandomStream stream(seed, row > 0.0 ? "shed site/trees/left" : "shed site/trees/right");
     for (double x = 40.0 + stream.uniform(0.0, 6.0); x < 40.0 + length_m; x += stream.uniform(6.0, 12.0)) {
@@ -120,7 +120,7 @@ void add_tree_line(Scenery& scenery, const Ground& ground, double length_m, doub
   }
 }
 
-void add_yard(Outdoors& outdoors, const Ground& ground, double length_m, std::uint64_t seed) {
+void add_yard(Outdoors& outdoors, const Terrain& ground, double length_m, std::uint64_t seed) {
   RandomStream stream(seed, "shed site/yard");
   const auto on_ground = [&](double x, double y) { return Vector3d(x, y, height_on(ground, x, y)); };
   for (int i = 0; i < 26; ++i) {  // stores beside the way between the sheds
@@ -148,7 +148,7 @@ void add_yard(Outdoors& outdoors, const Ground& ground, double length_m, std::ui
 }
 
 /// Points at most 4 m apart through way-points, each by its height above the ground.
-Route route_through(const std::string& name, const Ground& ground, const std::vector<Vector3d>& corners, bool closed) {
+Route route_through(const std::string& name, const Terrain& ground, const std::vector<Vector3d>& corners, bool closed) {
   Route route{.name = name, .points = {}, .closed = closed};
   const std::size_t legs = closed ? corners.size() : corners.size() - 1;
   for (std::size_t i = 0; i < legs; ++i) {
@@ -182,7 +182,7 @@ std::vector<Vector3d> with_round_corners(const std::vector<Vector3d>& corners) {
   return round;
 }
 
-void add_routes(Outdoors& outdoors, const Ground& ground) {
+void add_routes(Outdoors& outdoors, const Terrain& ground) {
   std::vector<Route>& routes = outdoors.routes;
   const double far = kSecondShed_m + kShedLength_m;
   // Through both sheds, around the second, and round the whole yard.
@@ -227,7 +227,7 @@ void add_routes(Outdoors& outdoors, const Ground& ground) {
 
 SceneDescription build_shed_site(const SceneValues& values, std::uint64_t world_seed) {
   const double tree_line = values.at("tree_line_m");
-  const Ground ground = site_ground(tree_line, derive_seed(world_seed, "shed site/land"));
+  const Terrain ground = site_ground(tree_line, derive_seed(world_seed, "shed site/land"));
   Outdoors outdoors;
   add_ground(outdoors.scenery, ground);
   RandomStream sheds(world_seed, "shed site/sheds");
