@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <stdexcept>
 #include <string>
 
 #include "sim/box_smoothing.h"
@@ -14,18 +13,13 @@ namespace {
 constexpr double kStep_s = Course::kStep_s;
 constexpr double kGrid_m = 0.005;  // of the speed profile along the path
 constexpr int kSmoothingPasses = 4;
-constexpr double kMaxDuration_s = 20000.0;
-constexpr auto kMaxKnots = static_cast<std::size_t>(kMaxDuration_s / kStep_s);
-
-void require(bool holds, const std::string& message) {
-  if (!holds) throw std::invalid_argument("motion: " + message);
-}
+constexpr auto kMaxKnots = static_cast<std::size_t>(kLongestMotion_s / kStep_s);
 
 void validate_or_throw(const MotionConfig& c) {
-  require(c.speed_mps > 0.0 && c.speed_factor > 0.0, "speed_mps and speed_factor must be above 0");
-  require(c.acceleration_mps2 > 0.0, "acceleration_mps2 must be above 0");
-  require(c.lateral_acceleration_mps2 > 0.0, "lateral_acceleration_mps2 must be above 0");
-  require(c.smoothing_s >= 0.1, "smoothing_s must be at least 0.1");
+  require_of_motion(c.speed_mps > 0.0 && c.speed_factor > 0.0, "speed_mps and speed_factor must be above 0");
+  require_of_motion(c.acceleration_mps2 > 0.0, "acceleration_mps2 must be above 0");
+  require_of_motion(c.lateral_acceleration_mps2 > 0.0, "lateral_acceleration_mps2 must be above 0");
+  require_of_motion(c.smoothing_s >= 0.1, "smoothing_s must be at least 0.1");
 }
 
 /// Path length at every knot: from rest to rest, no faster than the limit, no more than the acceleration allowed.
@@ -46,7 +40,7 @@ std::vector<double> travel(double length_m, const std::function<double(double)>&
     while (static_cast<double>(at_knot.size()) * kStep_s <= time + dt) {
       const double ratio = (static_cast<double>(at_knot.size()) * kStep_s - time) / dt;
       at_knot.push_back((static_cast<double>(i - 1) + ratio) * kGrid_m);
-      require(at_knot.size() <= kMaxKnots, "longer than 20000 s");
+      require_of_motion(at_knot.size() <= kMaxKnots, "longer than 20000 s");
     }
     time += dt;
   }
@@ -155,10 +149,10 @@ Course sharp_course(const MotionConfig& config) {
 }  // namespace
 
 Course course_through_waypoints(const MotionConfig& config) {
-  require(config.waypoints.size() >= 2, "waypoints: at least 2 are needed");
+  require_of_motion(config.waypoints.size() >= 2, "waypoints: at least 2 are needed");
   for (std::size_t i = 1; i < config.waypoints.size(); ++i) {
-    require((config.waypoints[i].position - config.waypoints[i - 1].position).norm() > 0.01,
-            "waypoints: number " + std::to_string(i + 1) + " stands on the one before it");
+    require_of_motion((config.waypoints[i].position - config.waypoints[i - 1].position).norm() > 0.01,
+                      "waypoints: number " + std::to_string(i + 1) + " stands on the one before it");
   }
   validate_or_throw(config);
   Course course = sharp_course(config);

@@ -12,9 +12,6 @@
 namespace plumbline {
 namespace {
 
-constexpr double kStep_s = Course::kStep_s;
-constexpr double kMaxDuration_s = 20000.0;
-
 /// Body attitude of a rotor craft: z along the thrust that the path's acceleration needs, x towards the heading.
 Eigen::Quaterniond thrust_attitude(const Eigen::Vector3d& acceleration, double yaw) {
   const Eigen::Vector3d z = (acceleration + kGravity * Eigen::Vector3d::UnitZ()).normalized();
@@ -27,7 +24,7 @@ Eigen::Quaterniond thrust_attitude(const Eigen::Vector3d& acceleration, double y
 
 Eigen::Vector3d acceleration_at(const std::vector<Eigen::Vector3d>& p, std::size_t i) {
   if (i == 0 || i + 1 >= p.size()) return Eigen::Vector3d::Zero();
-  return (p[i + 1] - 2.0 * p[i] + p[i - 1]) / (kStep_s * kStep_s);
+  return (p[i + 1] - 2.0 * p[i] + p[i - 1]) / (Course::kStep_s * Course::kStep_s);
 }
 
 /// A walker's bob and sway: up and down with every step, left and right with every second one.
@@ -58,7 +55,7 @@ Trajectory along(const Course& course, const MotionConfig& config, std::uint64_t
   const Gait gait{stream.uniform(0.0, 2.0 * M_PI)};
   std::vector<PoseTrack::Stamped> poses;
   for (std::size_t i = 0; i < course.position.size(); ++i) {
-    const double t = static_cast<double>(i) * kStep_s;
+    const double t = static_cast<double>(i) * Course::kStep_s;
     const double effort = course.effort[i];
     Eigen::Quaterniond attitude = rotation_from_rpy({0.0, 0.0, course.yaw[i]});
     if (config.attitude == MotionConfig::Attitude::kThrust) {
@@ -69,7 +66,7 @@ Trajectory along(const Course& course, const MotionConfig& config, std::uint64_t
       pose.translation += gait.offset(config, t, course.yaw[i], effort);
       pose.rotation = pose.rotation * rotation_from_rpy(gait.tilt(config, t, effort));
     }
-    poses.push_back({static_cast<std::int64_t>(i) * static_cast<std::int64_t>(kStep_s * 1e9), pose});
+    poses.push_back({static_cast<std::int64_t>(i) * static_cast<std::int64_t>(Course::kStep_s * 1e9), pose});
   }
   return Trajectory(poses);
 }
@@ -86,11 +83,15 @@ Trajectory from_tum(const MotionConfig& config) {
     if (stamped.stamp_ns <= last_ns) throw std::invalid_argument(name + ": speed_factor is too large for its stamps");
     last_ns = stamped.stamp_ns;
   }
-  if (seconds_between(0, last_ns) > kMaxDuration_s) throw std::invalid_argument(name + ": longer than 20000 s");
+  if (seconds_between(0, last_ns) > kLongestMotion_s) throw std::invalid_argument(name + ": longer than 20000 s");
   return Trajectory(poses);
 }
 
 }  // namespace
+
+void require_of_motion(bool holds, const std::string& message) {
+  if (!holds) throw std::invalid_argument("motion: " + message);
+}
 
 Trajectory make_trajectory(const MotionConfig& config, const World& world, const RayScene& rays, std::uint64_t seed) {
   if (!config.tum_file.empty()) return from_tum(config);

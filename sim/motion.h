@@ -12,6 +12,8 @@
 
 namespace plumbline {
 
+inline constexpr double kLongestMotion_s = 20000.0;
+
 /// A swing of the body about one axis, added to the path's own attitude.
 struct Oscillation {
   enum class Axis { kRoll, kPitch, kYaw };
@@ -83,5 +85,8 @@ Trajectory make_trajectory(const MotionConfig& config, const World& world, const
 
 /// The same for motions that need no world: splines through way-points and TUM files.
 Trajectory make_trajectory(const MotionConfig& config, std::uint64_t seed);
+
+/// @throws std::invalid_argument("motion: " + message) unless `holds`.
+void require_of_motion(bool holds, const std::string& message);
 
 }  // namespace plumbline

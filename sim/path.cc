@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
 #include "sim/box_smoothing.h"
@@ -84,10 +83,6 @@ Points rounded(const Points& even, double smoothing_m) {
   return {longer.begin() + reach, longer.end() - reach};
 }
 
-void require(bool holds, const std::string& message) {
-  if (!holds) throw std::invalid_argument("motion: " + message);
-}
-
 std::string metres(double value) {
   std::string text = std::to_string(value);
   return text.substr(0, text.find('.') + 2) + " m";
@@ -95,13 +90,13 @@ std::string metres(double value) {
 
 const Route& route_named(const std::string& name, const World& world) {
   const std::vector<Route>& routes = world.routes();
-  require(!routes.empty(), "route: this world has no routes; give way-points");
+  require_of_motion(!routes.empty(), "route: this world has no routes; give way-points");
   std::string known;
   for (const Route& route : routes) {
     if (route.name == name) return route;
     known += (known.empty() ? "" : ", ") + route.name;
   }
-  require(name == "tour", "route: found '" + name + "', this world has " + known);
+  require_of_motion(name == "tour", "route: found '" + name + "', this world has " + known);
   return routes.front();
 }
 
@@ -130,13 +125,14 @@ Points part_of_route(const MotionConfig& config, const Route& route) {
   Points points = route.points;
   if (route.closed) points.push_back(route.points.front());
   const double round_m = length_of(points);
-  require(config.route_start_m >= 0.0 && config.route_start_m < round_m,
-          "route_start_m: found " + metres(config.route_start_m) + ", the route is " + metres(round_m) + " long");
+  require_of_motion(
+      config.route_start_m >= 0.0 && config.route_start_m < round_m,
+      "route_start_m: found " + metres(config.route_start_m) + ", the route is " + metres(round_m) + " long");
   const double rest_m = route.closed ? round_m : round_m - config.route_start_m;
   const double wanted_m = config.route_length_m > 0.0 ? config.route_length_m : rest_m;
-  require(route.closed || wanted_m <= rest_m + 1e-6, "route_length_m: found " + metres(wanted_m) +
-                                                         ", the route goes on for " + metres(rest_m) +
-                                                         " from route_start_m");
+  require_of_motion(route.closed || wanted_m <= rest_m + 1e-6, "route_length_m: found " + metres(wanted_m) +
+                                                                   ", the route goes on for " + metres(rest_m) +
+                                                                   " from route_start_m");
   const auto rounds = static_cast<int>(std::ceil((config.route_start_m + wanted_m) / round_m));
   Points all = points;
   for (int i = 1; i < rounds; ++i) all.insert(all.end(), points.begin() + 1, points.end());
@@ -146,10 +142,10 @@ Points part_of_route(const MotionConfig& config, const Route& route) {
 }  // namespace
 
 Path::Path(const std::vector<Eigen::Vector3d>& points, double smoothing_m) {
-  require(points.size() >= 2, "a path needs at least 2 points");
+  require_of_motion(points.size() >= 2, "a path needs at least 2 points");
   for (std::size_t i = 1; i < points.size(); ++i) {
-    require((points[i] - points[i - 1]).norm() >= 0.0099,
-            "a path's points: number " + std::to_string(i + 1) + " stands on the one before it");
+    require_of_motion((points[i] - points[i - 1]).norm() >= 0.0099,
+                      "a path's points: number " + std::to_string(i + 1) + " stands on the one before it");
   }
   control_ = evenly_spaced(rounded(evenly_spaced(curve_through(points)), smoothing_m));
   length_m_ = length_of(control_);
@@ -194,12 +190,12 @@ double Path::nearest(const Eigen::Vector3d& place, double near_m) const {
 
 std::vector<Eigen::Vector3d> points_of(const MotionConfig& config, const World& world) {
   if (!config.route.empty()) return part_of_route(config, route_named(config.route, world));
-  require(config.waypoints.size() >= 2, "waypoints: at least 2 are needed");
+  require_of_motion(config.waypoints.size() >= 2, "waypoints: at least 2 are needed");
   Points points;
   for (const MotionConfig::Waypoint& waypoint : config.waypoints) points.push_back(waypoint.position);
   for (std::size_t i = 1; i < points.size(); ++i) {
-    require((points[i] - points[i - 1]).norm() > 0.01,
-            "waypoints: number " + std::to_string(i + 1) + " stands on the one before it");
+    require_of_motion((points[i] - points[i - 1]).norm() > 0.01,
+                      "waypoints: number " + std::to_string(i + 1) + " stands on the one before it");
   }
   return points;
 }

@@ -26,6 +26,10 @@ namespace plumbline {
 ///   normal then has a fraction of one return's noise.
 class SweepOdometry {
  public:
+  /// After a longer silence of the lidar the motion is no longer linear, and the sweep before is out of sight of what
+  /// is predicted: odometry has to start anew.
+  static constexpr std::int64_t kLongestSilence_ns = 2'500'000'000;
+
   SweepOdometry(const Calibration& calibration, bool remapping);
 
   /// Begins a sweep. @param last_sweep  features of the sweep before, in B at reference_ns, its middle

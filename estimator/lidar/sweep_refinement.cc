@@ -8,8 +8,6 @@
 namespace plumbline {
 namespace {
 
-// After a longer silence of the lidar the sweep before is out of sight of the growing one's predicted motion.
-constexpr std::int64_t kLongestGap_ns = 2'500'000'000;
 constexpr std::int64_t kTrackStep_ns = 10'000'000;
 
 }  // namespace
@@ -20,7 +18,7 @@ SweepRefinement::SweepRefinement(const Calibration& calibration, bool remapping)
 std::optional<SweepRefinement::Sweep> SweepRefinement::add(const LidarScan& part, const PoseTrack& odometry_from_body,
                                                            const Matrix6d& covariance) {
   const std::int64_t now_ns = newest_return_ns(part);
-  const bool silent = odometry_.begun() && now_ns - odometry_.reference_ns() > kLongestGap_ns;
+  const bool silent = odometry_.begun() && now_ns - odometry_.reference_ns() > SweepOdometry::kLongestSilence_ns;
   if (silent || (odometry_.begun() && !odometry_from_body.covers(odometry_.reference_ns()))) {
     odometry_ = SweepOdometry(calibration_, remapping_);
   }

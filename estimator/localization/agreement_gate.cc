@@ -4,10 +4,6 @@ namespace plumbline {
 namespace {
 
 constexpr double kLeastOverlap = 0.35;
-// Measured: where the map is right at least 0.13 is borne out, even by a map that a level lidar made for one that looks
-// 45 degrees down, and nine rows in ten fit. Three metres along a hall or a garage 0.07 is borne out at most; one metre
-// off it may be 0.19, of rows of which fewer than eight in ten fit.
-constexpr double kLeastSupport = 0.1;
 constexpr double kLeastInliers = 0.85;
 
 // A start is known to a metre and ten degrees; after that, odometry's drift at four sigma.

@@ -10,7 +10,7 @@
 namespace plumbline {
 namespace {
 
-constexpr std::int64_t kTrackLength_ns = MessageGate::kLongestDelay_ns + SweepAssembler::kLongest_ns;
+constexpr std::int64_t kCorrectedTrack_ns = MessageGate::kLongestDelay_ns + SweepAssembler::kLongest_ns;
 // Scans a tenth of a second apart see the same; the thesis stacks five a second.
 constexpr std::int64_t kLeastInterval_ns = 150'000'000;
 // A correction is spent before the next one comes; a decimetre in a second is the pace of a slow step aside.
@@ -112,7 +112,7 @@ Odometry LocalizedEstimator::localized(Odometry odometry) {
   const Pose last = first ? odometry_from_body : track_.poses().back().pose;
   if (first || odometry.stamp_ns > track_.last_ns()) {
     track_.push(odometry.stamp_ns, odometry_from_body);
-    track_.forget_before(odometry.stamp_ns - kTrackLength_ns);
+    track_.forget_before(odometry.stamp_ns - kCorrectedTrack_ns);
   }
   const Pose body_from_last = odometry_from_body.inverse() * last;
   path_m_ += body_from_last.translation.norm();

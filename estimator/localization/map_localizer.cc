@@ -11,8 +11,8 @@ namespace plumbline {
 namespace {
 
 // A stack covers more of the scene than a scan, so more features are worth their time, twice a second at most.
-constexpr int kPlaneBudget = 2000;
-constexpr int kEdgeBudget = 400;
+constexpr int kStackPlaneBudget = 2000;
+constexpr int kStackEdgeBudget = 400;
 // A step below these changes nothing that a map of centimetres could tell.
 constexpr double kRotationTolerance = 2e-4;
 constexpr double kTranslationTolerance = 2e-3;
@@ -20,11 +20,11 @@ constexpr double kTranslationTolerance = 2e-3;
 // The rows of one stack share the errors of map and odometry, which do not average out.
 constexpr double kInflation = 100.0;
 
-ScanMatcherConfig matcher_config() {
+ScanMatcherConfig stack_matcher_config() {
   ScanMatcherConfig config;
   config.largest_plane_disagreement = 1.0;
-  config.plane_budget = kPlaneBudget;
-  config.edge_budget = kEdgeBudget;
+  config.plane_budget = kStackPlaneBudget;
+  config.edge_budget = kStackEdgeBudget;
   config.rotation_tolerance = kRotationTolerance;
   config.translation_tolerance = kTranslationTolerance;
   return config;
@@ -50,7 +50,7 @@ Matrix6d covariance_of(const SolveResult& solved) {
 
 MapLocalizer::MapLocalizer(const Calibration& calibration, const PriorMap& map, const Pose& map_from_start,
                            bool remapping)
-    : matcher_(calibration, matcher_config(), remapping), occupancy_(map.surfaces), gate_(map_from_start) {
+    : matcher_(calibration, stack_matcher_config(), remapping), occupancy_(map.surfaces), gate_(map_from_start) {
   matcher_.insert(map.surfaces, Pose{}, /*path_m=*/0.0);
 }
 
@@ -63,7 +63,7 @@ MatchEvidence MapLocalizer::evidence_of(const FeatureCloud& stack, const SolveRe
   evidence.inlier_share = static_cast<double>(solved.inliers) / static_cast<double>(solved.features);
   // The same sample that the matcher takes.
   std::vector<FeaturePoint> planes;
-  for (const std::uint32_t i : sample_by_direction(stack.planes, kPlaneBudget)) planes.push_back(stack.planes[i]);
+  for (const std::uint32_t i : sample_by_direction(stack.planes, kStackPlaneBudget)) planes.push_back(stack.planes[i]);
   const Matrix6d expected =
       plane_information(planes_near(planes, occupancy_, solved.pose), matcher_.rows().front().sigma_m);
   evidence.support = map_support(expected, solved.information, ScanMatcherConfig{}.degeneracy_threshold);

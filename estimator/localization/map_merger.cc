@@ -5,6 +5,7 @@
 
 #include "estimator/lidar/direction_sampling.h"
 #include "estimator/lidar/scan_matcher.h"
+#include "estimator/localization/agreement_gate.h"
 #include "estimator/localization/map_support.h"
 #include "estimator/localization/occupancy.h"
 
@@ -13,14 +14,13 @@ namespace {
 
 constexpr int kMergePlaneBudget = 20'000;
 constexpr int kMergeEdgeBudget = 4'000;
-constexpr int kLeastFeatures = 500;
+constexpr int kLeastSharedFeatures = 500;
 constexpr int kRounds = 3;  // each with what the one before has brought near
 
 // What maps of one place hold to: theirs err by a few centimetres each, and cells of the other's surface lie anywhere
 // within a cell.
 constexpr double kClose_m = 0.1;
 constexpr double kLeastClose = 0.85;
-constexpr double kLeastSupport = 0.1;  // as in AgreementGate
 constexpr double kLargestMedian_m = 0.05;
 constexpr double kLargestCorrection_m = 2.0;
 constexpr double kLargestCorrection_rad = 0.2;
@@ -131,7 +131,7 @@ std::string centimetres(double metres) { return std::to_string(std::lround(100.0
 
 std::string refusal_of(const MapAlignment& m, const Fit& found) {
   const std::size_t features = found.overlap.features.planes.size() + found.overlap.features.edges.size();
-  if (features < kLeastFeatures)
+  if (features < kLeastSharedFeatures)
     return "the maps do not overlap: " + std::to_string(features) + " features of B lie near A";
   if (m.well_conditioned < 6) {
     return "the overlap determines " + std::to_string(m.well_conditioned) + " of 6 directions";
@@ -139,7 +139,8 @@ std::string refusal_of(const MapAlignment& m, const Fit& found) {
   if (m.correction_m > kLargestCorrection_m || m.correction_rad > kLargestCorrection_rad) {
     return "they fit only " + centimetres(m.correction_m) + " from where B was said to lie";
   }
-  if (m.support < kLeastSupport || m.close_share < kLeastClose || m.residual_median_m > kLargestMedian_m) {
+  if (m.support < AgreementGate::kLeastSupport || m.close_share < kLeastClose ||
+      m.residual_median_m > kLargestMedian_m) {
     return "their surfaces differ: only " + std::to_string(std::lround(100.0 * m.close_share)) +
            " % of the overlap lies on A, in the worst direction " + std::to_string(std::lround(100.0 * m.support)) +
            " %, half of it within " + centimetres(m.residual_median_m);

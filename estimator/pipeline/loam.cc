@@ -12,8 +12,6 @@ namespace plumbline {
 namespace {
 
 constexpr std::int64_t kSweepTrack_ns = 3'000'000'000;  // the sweep before, the growing one and a late arrival
-// After a longer silence of the lidar the motion is no longer linear: odometry starts anew.
-constexpr std::int64_t kLongestGap_ns = 2'500'000'000;
 
 // A solution's rows share errors that whitening does not know: the map's, or the last sweep's.
 constexpr double kSweepInflation = 25.0;
@@ -35,7 +33,7 @@ MessageUse use_of(ImuUse imu) {
   return use;
 }
 
-ScanMatcherConfig matcher_config() {
+ScanMatcherConfig scan_matcher_config() {
   ScanMatcherConfig config;
   config.largest_plane_disagreement = 1.0;
   config.clutter_budget = kMatchedClutter;
@@ -52,7 +50,7 @@ Loam::Loam(const Calibration& calibration, const EstimatorConfig& config, ImuUse
       gate_(use_of(imu)),
       initializer_(calibration),
       odometry_(calibration, config.remapping),
-      matcher_(calibration, matcher_config(), config.remapping) {}
+      matcher_(calibration, scan_matcher_config(), config.remapping) {}
 
 void Loam::add(const ImuSample& received) {
   const std::optional<ImuSample> admitted = gate_.admit(received);
@@ -116,7 +114,8 @@ void Loam::handle(const LidarScan& part) {
   const StopWatch watch;
   const std::optional<LidarScan> sweep = assembler_.add(part);
   const std::int64_t now_ns = newest_return_ns(part);
-  if (now_ns - odometry_.reference_ns() > kLongestGap_ns) odometry_ = SweepOdometry(calibration_, remapping_);
+  if (now_ns - odometry_.reference_ns() > SweepOdometry::kLongestSilence_ns)
+    odometry_ = SweepOdometry(calibration_, remapping_);
   if (growing_ && *growing_ != part.sweep) odometry_.discard();  // its end never came
   growing_ = part.sweep;
   if (odometry_.begun() && now_ns > odometry_.reference_ns()) follow(part, now_ns);

@@ -12,7 +12,6 @@ namespace plumbline {
 namespace {
 
 constexpr double kDefaultInverseDepth = 0.1;  // [1/m] of a feature without depth, as a first guess
-constexpr double kLeastDepthRatio = 0.05;     // of depth now over depth first: nearer, or behind, is no sight of it
 /// Inliers of the frame-to-frame motion still hold depths taken across an edge: beyond this many sigma a row loses
 /// pull.
 constexpr double kRobustSigma = 2.0;

@@ -5,12 +5,10 @@
 namespace plumbline {
 namespace {
 
-/// Nearer than this in front of the camera, or behind it, a point has no usable projection.
-constexpr double kLeastDepthRatio = 0.05;
 /// Residual of a point with no projection: an outlier to any robust scale.
 constexpr double kHopeless = 1e3;
 /// Below this translation an epipolar line has no direction that noise would not turn.
-constexpr double kLeastBaseline = 1e-3;
+constexpr double kLeastEpipolarBaseline = 1e-3;
 
 struct ScaledPoint {
   Eigen::Vector3d point;  ///< h = R X-bar + t / z: the feature in the camera now, divided by its key-frame depth
@@ -99,7 +97,7 @@ PixelRow epipolar_row(const CameraMotion& motion, const CameraIntrinsics& camera
   const Eigen::Vector3d x = ray_through(camera, feature.pixel);
   const Eigen::Vector3d line = t.cross(y);  // 5.8 reads x . (t x R X-bar) = 0
   const Eigen::Vector3d line_per_px2(line.x() / (camera.fx * camera.fx), line.y() / (camera.fy * camera.fy), 0.0);
-  const double floor = kLeastBaseline / camera.fx;
+  const double floor = kLeastEpipolarBaseline / camera.fx;
   const double norm = std::sqrt(line.dot(line_per_px2) + floor * floor);
 
   PixelRow row;

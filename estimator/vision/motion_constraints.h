@@ -10,6 +10,10 @@
 /// a right perturbation of keyframe_from_body: thesis 5.6-5.8, whitened to units of pixel noise.
 namespace plumbline {
 
+/// Of depth now over depth in the key-frame: nearer than this in front of the camera, or behind it, a point has no
+/// usable projection.
+inline constexpr double kLeastDepthRatio = 0.05;
+
 /// The camera's motion since the key-frame at one candidate pose: what all rows of a linearisation share.
 struct CameraMotion {
   Eigen::Matrix3d camera_from_keyframe_rotation = Eigen::Matrix3d::Identity();  ///< R_l^c of 5.5

@@ -6,7 +6,7 @@ namespace plumbline {
 namespace {
 
 constexpr double kLeastAxisAngle = 2.0 * M_PI / 180.0;  // method section 8: the ray more than 2 degrees off the motion
-constexpr double kLeastBaseline = 0.01;                 // [m]: below, the pose's own error is all there is
+constexpr double kLeastBaseline_m = 0.01;               // [m]: below, the pose's own error is all there is
 constexpr double kEpipolarGate = 4.0;                   // [sigma]
 constexpr double kContradiction = 4.0;                  // [sigma]
 /// A baseline of 2 % of the depth (method section 8) moves a feature by 9.5 px at f = 474 px, which a track good to
@@ -21,7 +21,7 @@ std::optional<InverseDepth> triangulate(const CameraMotion& motion, const Camera
   const Eigen::Vector3d y = motion.camera_from_keyframe_rotation * feature.keyframe_ray;
   const Eigen::Vector3d x = ray_through(camera, feature.pixel);
   const double baseline = t.norm();
-  if (baseline < kLeastBaseline) return std::nullopt;
+  if (baseline < kLeastBaseline_m) return std::nullopt;
   if (x.cross(t).norm() < std::sin(kLeastAxisAngle) * x.norm() * baseline) return std::nullopt;
 
   // x (y + rho t).z = (y + rho t).xy, rows 5.6 and 5.7 divided by the key-frame depth: linear in rho. In pixels.

@@ -14,7 +14,7 @@
 namespace plumbline {
 namespace {
 
-constexpr double kReachM = 300.0;
+constexpr double kLawnReachM = 300.0;
 constexpr double kParapetM = 0.6;
 constexpr double kPavedHalfM = 2.5;  // of the paving around the building, to both sides of the way
 
@@ -129,10 +129,10 @@ void add_ground(MjcfWriter& writer, const BuildingPlan& plan) {
   add_patches(writer, stream, {-outer.x(), inner.y()}, {outer.x(), outer.y()}, paving);
   add_patches(writer, stream, {-outer.x(), -inner.y()}, {-inner.x(), inner.y()}, paving);
   add_patches(writer, stream, {inner.x(), -inner.y()}, {outer.x(), inner.y()}, paving);
-  writer.box("lawn_short", {-kReachM, -kReachM, -1.0}, {kReachM, -outer.y(), 0.0});
-  writer.box("lawn_short", {-kReachM, outer.y(), -1.0}, {kReachM, kReachM, 0.0});
-  writer.box("lawn_short", {-kReachM, -outer.y(), -1.0}, {-outer.x(), outer.y(), 0.0});
-  writer.box("lawn_short", {outer.x(), -outer.y(), -1.0}, {kReachM, outer.y(), 0.0});
+  writer.box("lawn_short", {-kLawnReachM, -kLawnReachM, -1.0}, {kLawnReachM, -outer.y(), 0.0});
+  writer.box("lawn_short", {-kLawnReachM, outer.y(), -1.0}, {kLawnReachM, kLawnReachM, 0.0});
+  writer.box("lawn_short", {-kLawnReachM, -outer.y(), -1.0}, {-outer.x(), outer.y(), 0.0});
+  writer.box("lawn_short", {outer.x(), -outer.y(), -1.0}, {kLawnReachM, outer.y(), 0.0});
 }
 
 // Outside the way: trees, lamp posts, benches, parked things; beyond them other houses.

@@ -13,7 +13,7 @@
 namespace plumbline {
 namespace {
 
-constexpr double kWayM = 1.35;  // from the walls to the middle of the way around the table
+constexpr double kWayAroundTableM = 1.35;  // from the walls to the middle of the way around the table
 
 struct RoomPlan {
   Eigen::Vector2d half = Eigen::Vector2d::Zero();
@@ -128,7 +128,7 @@ SceneDescription build_conference_room(const SceneValues& values, std::uint64_t 
   RandomStream lamps(world_seed, "conference_room/lamps");
   add_ceiling_lamps(writer, lamps, shell, 2.6, 90.0);
   SceneDescription scene = writer.finish("conference_room", scene_palette(), 30.0, 0.0);
-  const Eigen::Vector2d way = plan.half - Eigen::Vector2d::Constant(kWayM);
+  const Eigen::Vector2d way = plan.half - Eigen::Vector2d::Constant(kWayAroundTableM);
   scene.routes = {rectangular_route("around_the_table", Eigen::Vector3d::Zero(), way, 0.7)};
   return scene;
 }

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 constexpr double kFlightWidth_m = 1.1;
 constexpr double kTurnRadius_m = 0.4;
-constexpr double kTurn_m = 0.7;  // y where ways from the doors turn to the stairs
+constexpr double kStairTurn_m = 0.7;  // y where ways from the doors turn to the stairs
 
 double along_of(const HouseOpening& opening, const Wall& wall) {
   return (opening.middle - wall.from).dot((wall.to - wall.from).normalized());
@@ -50,16 +50,16 @@ class Ways {
   }
   /// From the landing in the east through the rooms in the north (side 1) or south (-1) to the west of the hall.
   void through_rooms_west(int level, double side) {
-    go(level, plan_.door_x(), kTurn_m);
+    go(level, plan_.door_x(), kStairTurn_m);
     go(level, plan_.door_x(), side * plan_.row_y());
     go(level, -plan_.door_x(), side * plan_.row_y());
-    go(level, -plan_.door_x(), kTurn_m);
+    go(level, -plan_.door_x(), kStairTurn_m);
   }
   void through_rooms_east(int level, double side) {
-    go(level, -plan_.door_x(), kTurn_m);
+    go(level, -plan_.door_x(), kStairTurn_m);
     go(level, -plan_.door_x(), side * plan_.row_y());
     go(level, plan_.door_x(), side * plan_.row_y());
-    go(level, plan_.door_x(), kTurn_m);
+    go(level, plan_.door_x(), kStairTurn_m);
   }
   const std::vector<Vector3d>& corners() const { return corners_; }
 
@@ -81,8 +81,8 @@ Route all_floors(const HousePlan& plan) {
   Ways ways(plan);
   const auto basement_room = [&](bool out) {
     if (out) ways.go(0, 0.0, -plan.row_y());
-    ways.go(0, -plan.door_x(), out ? -plan.row_y() : kTurn_m);
-    ways.go(0, -plan.door_x(), out ? kTurn_m : -plan.row_y());
+    ways.go(0, -plan.door_x(), out ? -plan.row_y() : kStairTurn_m);
+    ways.go(0, -plan.door_x(), out ? kStairTurn_m : -plan.row_y());
     if (!out) ways.go(0, 0.0, -plan.row_y());
   };
   basement_room(true);
@@ -92,12 +92,12 @@ Route all_floors(const HousePlan& plan) {
     ways.climb(level);
   }
   // At the top first the rooms in the north, then those in the south.
-  ways.go(3, plan.door_x(), kTurn_m);
+  ways.go(3, plan.door_x(), kStairTurn_m);
   ways.go(3, plan.door_x(), plan.row_y());
   ways.go(3, -plan.door_x(), plan.row_y());
   ways.go(3, -plan.door_x(), -plan.row_y());
   ways.go(3, plan.door_x(), -plan.row_y());
-  ways.go(3, plan.door_x(), kTurn_m);
+  ways.go(3, plan.door_x(), kStairTurn_m);
   ways.descend(3);
   for (const int level : {2, 1}) {
     ways.through_rooms_east(level, -1.0);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t kStartEveryNs = 1'000'000'000;  // ten of KITTI's frames
 constexpr double kFullLength = 800.0;                  // [m]
-constexpr double kLeastDistance = 1e-3;                // [m]
+constexpr double kLeastPath_m = 1e-3;                  // [m]
 constexpr int kLengths = 8;
 // A segment of the whole path must survive the rounding of its own sum.
 constexpr double kRounding = 1.0 - 1e-9;
@@ -35,7 +35,7 @@ Pose segment_error(const PosePair& start, const PosePair& end) {
 KittiError kitti_error(const std::vector<PosePair>& pairs, double distance_m) {
   KittiError result;
   result.scaled = distance_m < kFullLength;
-  if (pairs.empty() || distance_m < kLeastDistance) return result;
+  if (pairs.empty() || distance_m < kLeastPath_m) return result;
   const double full_length = result.scaled ? distance_m : kFullLength;
   const std::vector<double> distance = distance_along(pairs);
 

@@ -22,7 +22,7 @@ constexpr double kUnknownTurnOn = 0.05;  // [rad/s]; the format has no such figu
 constexpr std::uintmax_t kMostYamlBytes = 1'000'000;
 constexpr const char* kSeparators = ", \t\r";
 constexpr Range kAnything{-1e9, 1e9};
-constexpr Range kPositive{1e-9, 1e9};
+constexpr Range kPositiveInSensorFile{1e-9, 1e9};
 
 /// A sensor.yaml. Its first line is a directive that only OpenCV writes without a space.
 ConfigNode read_sensor_yaml(const fs::path& path) {
@@ -118,11 +118,11 @@ class EurocFolder {
     if (!fs::exists(path)) return {};
     const ConfigNode node = read_sensor_yaml(path);
     ConfigReader sensor(node, "");
-    sensor.read("rate_hz", calibration.imu_rate_hz, kPositive);
-    sensor.read("gyroscope_noise_density", calibration.imu.gyro_density, kPositive);
-    sensor.read("gyroscope_random_walk", calibration.imu.gyro_random_walk, kPositive);
-    sensor.read("accelerometer_noise_density", calibration.imu.accel_density, kPositive);
-    sensor.read("accelerometer_random_walk", calibration.imu.accel_random_walk, kPositive);
+    sensor.read("rate_hz", calibration.imu_rate_hz, kPositiveInSensorFile);
+    sensor.read("gyroscope_noise_density", calibration.imu.gyro_density, kPositiveInSensorFile);
+    sensor.read("gyroscope_random_walk", calibration.imu.gyro_random_walk, kPositiveInSensorFile);
+    sensor.read("accelerometer_noise_density", calibration.imu.accel_density, kPositiveInSensorFile);
+    sensor.read("accelerometer_random_walk", calibration.imu.accel_random_walk, kPositiveInSensorFile);
     return pose_of_matrix(sensor);
   }
 
@@ -133,7 +133,7 @@ class EurocFolder {
     FurtherCamera camera;
     camera.camera_id = static_cast<int>(id);
     camera.rate_hz = 20.0;
-    sensor.read("rate_hz", camera.rate_hz, kPositive);
+    sensor.read("rate_hz", camera.rate_hz, kPositiveInSensorFile);
     std::string model = "radial-tangential";
     sensor.read("distortion_model", model);
     std::vector<double> size, focal, lens;

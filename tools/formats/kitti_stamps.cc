@@ -8,7 +8,7 @@
 namespace plumbline {
 namespace {
 
-constexpr std::int64_t kNanoseconds = 1'000'000'000;
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 int field_of(const TextTable& table, std::string_view text, double least, double most) {
   const auto value = parse_number(text);
@@ -25,10 +25,10 @@ std::int64_t stamp_of_date(const TextTable& table) {
                                         std::chrono::day(static_cast<unsigned>(field_of(table, date[2], 1, 31)))};
   if (!day.ok()) table.reject("there is no such day");
   const auto seconds = parse_stamp(time[2]);
-  if (!seconds || *seconds < 0 || *seconds >= 61 * kNanoseconds) table.reject("the seconds are not from 0 to 60");
+  if (!seconds || *seconds < 0 || *seconds >= 61 * kSecond_ns) table.reject("the seconds are not from 0 to 60");
   const std::int64_t days = std::chrono::sys_days(day).time_since_epoch().count();
   const std::int64_t minutes = (days * 24 + field_of(table, time[0], 0, 23)) * 60 + field_of(table, time[1], 0, 59);
-  return minutes * 60 * kNanoseconds + *seconds;
+  return minutes * 60 * kSecond_ns + *seconds;
 }
 
 }  // namespace

@@ -71,4 +71,6 @@ std::string readable_text(double value) {
   return fixed_text(value, std::clamp(2 - leading, 0, 6));
 }
 
+std::string shown(const std::optional<double>& value) { return value ? readable_text(*value) : "–"; }
+
 }  // namespace plumbline

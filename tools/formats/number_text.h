@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 /// Numbers as text, independent of the locale and fast enough for tens of thousands of poses.
@@ -23,5 +24,7 @@ std::string fixed_text(double value, int decimals);
 
 /// For people: three or so significant digits, without exponents for ordinary sizes; a dash if it is not finite.
 std::string readable_text(double value);
+/// The same, or a dash where there is no value.
+std::string shown(const std::optional<double>& value);
 
 }  // namespace plumbline

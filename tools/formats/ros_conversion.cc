@@ -15,16 +15,16 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "fields are copied as they stand in memory");
 
-constexpr std::size_t kMostPoints = 8'000'000;
+constexpr std::size_t kMostCloudPoints = 8'000'000;
 constexpr double kAbsoluteTime_s = 1e6;
 constexpr std::int64_t kFurthest_ns = 2'000'000'000;
-constexpr float kFurthest_m = 1e4F;
+constexpr float kFurthestReturn_m = 1e4F;
 constexpr std::uint8_t kUint16 = 4;
 constexpr std::uint8_t kUint32 = 6;
 constexpr std::uint8_t kFloat32 = 7;
 constexpr std::uint8_t kFloat64 = 8;
 
-[[noreturn]] void fail(const std::string& what) { throw std::invalid_argument(what); }
+[[noreturn]] void refuse_message(const std::string& what) { throw std::invalid_argument(what); }
 
 std::size_t size_of_type(std::uint8_t datatype) {
   static constexpr std::size_t kSizes[] = {0, 1, 1, 2, 2, 4, 4, 4, 8};
@@ -89,7 +89,7 @@ class Column {
   void take(const RosPointCloud& cloud, const RosField& field) {
     const std::size_t size = size_of_type(field.datatype);
     if (size == 0 || field.offset > cloud.point_step || size > cloud.point_step - field.offset) {
-      fail("a cloud's field " + field.name.substr(0, 40) + " is of no known type or lies outside its points");
+      refuse_message("a cloud's field " + field.name.substr(0, 40) + " is of no known type or lies outside its points");
     }
     field_ = field;
   }
@@ -100,11 +100,12 @@ class Column {
 void check_sizes(const RosPointCloud& cloud) {
   const std::uint64_t points = std::uint64_t{cloud.width} * cloud.height;
   const std::uint64_t row = cloud.row_step > 0 ? cloud.row_step : std::uint64_t{cloud.width} * cloud.point_step;
-  if (cloud.is_bigendian) fail("a cloud of big-endian numbers, which is not read");
-  if (points > kMostPoints) fail("a cloud of " + std::to_string(points) + " points, of which 8 million are allowed");
+  if (cloud.is_bigendian) refuse_message("a cloud of big-endian numbers, which is not read");
+  if (points > kMostCloudPoints)
+    refuse_message("a cloud of " + std::to_string(points) + " points, of which 8 million are allowed");
   if (points > 0 && (cloud.point_step == 0 || row < std::uint64_t{cloud.width} * cloud.point_step ||
                      cloud.data.size() / row < cloud.height)) {
-    fail("a cloud of " + std::to_string(cloud.data.size()) + " bytes, which its sizes do not fit");
+    refuse_message("a cloud of " + std::to_string(cloud.data.size()) + " bytes, which its sizes do not fit");
   }
 }
 
@@ -113,11 +114,11 @@ void check_sizes(const RosImage& image, std::size_t pixel_bytes) {
       image.width > 0 && image.height > 0 && image.width <= kMostImageSide && image.height <= kMostImageSide;
   const std::size_t row = image.width * pixel_bytes;
   if (!small || image.step < row || image.data.size() / image.step < image.height) {
-    fail("an image of " + std::to_string(image.width) + " x " + std::to_string(image.height) + " with " +
-         std::to_string(image.data.size()) + " bytes, which do not fit or are too many");
+    refuse_message("an image of " + std::to_string(image.width) + " x " + std::to_string(image.height) + " with " +
+                   std::to_string(image.data.size()) + " bytes, which do not fit or are too many");
   }
   if (image.is_bigendian && pixel_bytes > 1 && pixel_bytes != 3)
-    fail("an image of big-endian numbers, which is not read");
+    refuse_message("an image of big-endian numbers, which is not read");
 }
 
 /// Moves the scan's start so that no point is before it, and ends it with its last point.
@@ -145,8 +146,9 @@ LidarScan scan_of(const RosPointCloud& cloud) {
   const Column x(cloud, {"x"}), y(cloud, {"y"}), z(cloud, {"z"}), intensity(cloud, {"intensity"});
   const Column ring(cloud, {"ring", "channel", "line"});
   const Column time(cloud, {"time", "t", "timestamp", "time_stamp", "offset_time"});
-  if (!x || !y || !z) fail("a cloud without fields x, y and z");
-  if (!ring && cloud.height < 2 && cloud.width > 0) fail("a cloud without a field ring, and not organised in rows");
+  if (!x || !y || !z) refuse_message("a cloud without fields x, y and z");
+  if (!ring && cloud.height < 2 && cloud.width > 0)
+    refuse_message("a cloud without a field ring, and not organised in rows");
   const std::size_t row_bytes = cloud.row_step > 0 ? cloud.row_step : std::size_t{cloud.width} * cloud.point_step;
   LidarScan scan;
   std::vector<std::int64_t> offsets_ns;
@@ -158,8 +160,8 @@ LidarScan scan_of(const RosPointCloud& cloud) {
       const std::int64_t offset_ns = time ? time.nanoseconds_since(cloud.stamp_ns, at) : 0;
       const double number = ring ? ring.at(at) : static_cast<double>(cloud.height - 1 - row);
       const bool usable = point.position.allFinite() && !point.position.isZero(0.0F) &&
-                          point.position.cwiseAbs().maxCoeff() <= kFurthest_m && number >= 0.0 && number < 65536.0 &&
-                          offset_ns >= -kFurthest_ns && offset_ns <= kFurthest_ns;
+                          point.position.cwiseAbs().maxCoeff() <= kFurthestReturn_m && number >= 0.0 &&
+                          number < 65536.0 && offset_ns >= -kFurthest_ns && offset_ns <= kFurthest_ns;
       if (!usable) continue;
       point.ring = static_cast<std::uint16_t>(number);
       if (intensity) point.intensity = static_cast<float>(intensity.at(at));
@@ -169,7 +171,7 @@ LidarScan scan_of(const RosPointCloud& cloud) {
     }
   }
   settle_times(cloud.stamp_ns, offsets_ns, scan);
-  if (scan.end_ns - scan.stamp_ns > kFurthest_ns) fail("a cloud that takes longer than 2 s");
+  if (scan.end_ns - scan.stamp_ns > kFurthest_ns) refuse_message("a cloud that takes longer than 2 s");
   return scan;
 }
 
@@ -205,7 +207,8 @@ CameraFrame frame_of(const RosImage& image, int camera_id) {
   const auto* layout = std::find_if(std::begin(kLayouts), std::end(kLayouts),
                                     [&](const Layout& known) { return image.encoding == known.encoding; });
   if (layout == std::end(kLayouts)) {
-    fail("an image of encoding '" + image.encoding.substr(0, 40) + "'; read are mono8, 8UC1, rgb8, bgr8, rgba8, bgra8");
+    refuse_message("an image of encoding '" + image.encoding.substr(0, 40) +
+                   "'; read are mono8, 8UC1, rgb8, bgr8, rgba8, bgra8");
   }
   check_sizes(image, layout->bytes);
   CameraFrame frame{image.stamp_ns, camera_id, static_cast<int>(image.width), static_cast<int>(image.height), {}};
@@ -224,7 +227,8 @@ CameraFrame frame_of(const RosImage& image, int camera_id) {
 DepthFrame depth_of(const RosImage& image, int camera_id) {
   const bool metres = image.encoding == "32FC1";
   if (!metres && image.encoding != "16UC1" && image.encoding != "mono16") {
-    fail("a depth image of encoding '" + image.encoding.substr(0, 40) + "'; read are 32FC1, 16UC1 and mono16");
+    refuse_message("a depth image of encoding '" + image.encoding.substr(0, 40) +
+                   "'; read are 32FC1, 16UC1 and mono16");
   }
   const std::size_t bytes = metres ? 4 : 2;
   check_sizes(image, bytes);

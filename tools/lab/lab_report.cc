@@ -20,8 +20,6 @@ std::string number(const std::optional<double>& value) {
   return text;
 }
 
-std::string shown(const std::optional<double>& value) { return value ? readable_text(*value) : "–"; }
-
 std::optional<double> of_choice(const DetectorScore& score, double ThresholdChoice::*figure) {
   return score.choice ? std::optional((*score.choice).*figure) : std::nullopt;
 }

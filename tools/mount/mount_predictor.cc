@@ -24,8 +24,8 @@ constexpr double kSurfaceReach_m = 30.0;
 constexpr int kSurfaceRays = 3000;
 
 // The image's rays stand for its features: about as many as vision tracks.
-constexpr int kColumns = 24;
-constexpr int kRows = 14;
+constexpr int kImageColumns = 24;
+constexpr int kImageRows = 14;
 constexpr double kImageReach_m = 60.0;
 constexpr double kPixelSigma_px = 0.5;
 constexpr float kLeastContrast = 0.05F;
@@ -181,16 +181,16 @@ void MountPredictor::look_with_camera(const Place& place, const RigConfig& rig, 
   const Pose body_from_camera = rig.camera.pack_from_camera;
   const Pose world_from_camera = sight.world_from_body * body_from_camera;
   const Pose camera_from_world = world_from_camera.inverse();
-  std::vector<bool> seen_by_lidar(static_cast<std::size_t>(kColumns * kRows));
+  std::vector<bool> seen_by_lidar(static_cast<std::size_t>(kImageColumns * kImageRows));
   for (const Eigen::Vector3d& point : sight.points_in_world) {
     const Eigen::Vector3d p = camera_from_world * point;
     if (p.z() <= 0.0) continue;
     const double u = camera.fx * p.x() / p.z() + camera.cx;
     const double v = camera.fy * p.y() / p.z() + camera.cy;
     if (u < 0.0 || v < 0.0 || u >= camera.width || v >= camera.height) continue;
-    const int column = static_cast<int>(u * kColumns / camera.width);
-    const int row = static_cast<int>(v * kRows / camera.height);
-    seen_by_lidar[static_cast<std::size_t>(row * kColumns + column)] = true;
+    const int column = static_cast<int>(u * kImageColumns / camera.width);
+    const int row = static_cast<int>(v * kImageRows / camera.height);
+    seen_by_lidar[static_cast<std::size_t>(row * kImageColumns + column)] = true;
   }
 
   const double time_s = 1e-9 * static_cast<double>(stamp_ns);
@@ -198,9 +198,9 @@ void MountPredictor::look_with_camera(const Place& place, const RigConfig& rig, 
   const OwnBody* own = own_body(rig);
   std::vector<Eigen::Vector3d> features;
   std::vector<double> depths;
-  for (int i = 0; i < kColumns * kRows; ++i) {
-    const double u = (i % kColumns + 0.5) * camera.width / kColumns;
-    const double v = (i / kColumns + 0.5) * camera.height / kRows;
+  for (int i = 0; i < kImageColumns * kImageRows; ++i) {
+    const double u = (i % kImageColumns + 0.5) * camera.width / kImageColumns;
+    const double v = (i / kImageColumns + 0.5) * camera.height / kImageRows;
     const Eigen::Vector3d ray =
         Eigen::Vector3d((u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy, 1.0).normalized();
     const RayHit hit =
@@ -293,8 +293,8 @@ MountPrediction MountPredictor::predict(const RigConfig& rig) {
   prediction.degenerate_time = share(
       std::count_if(excesses.begin(), excesses.end(), [](double excess) { return excess > 1.0; }), excesses.size());
   prediction.coverage = share(seen.size(), surfaces_.size());
-  prediction.own_body_share =
-      std::max(share(on_own_body, fired), share(image_own, kColumns * kRows * static_cast<int>(sights.size())));
+  prediction.own_body_share = std::max(share(on_own_body, fired),
+                                       share(image_own, kImageColumns * kImageRows * static_cast<int>(sights.size())));
   prediction.overlap = share(image_overlap, image_hits);
   return prediction;
 }

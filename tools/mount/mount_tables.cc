@@ -7,11 +7,11 @@
 namespace plumbline {
 namespace {
 
-constexpr int kDigits = 6;
+constexpr int kMountDigits = 6;
 
 std::string cell(double value) {
   std::string text = ",";
-  append_general(text, value, kDigits);
+  append_general(text, value, kMountDigits);
   return text;
 }
 

@@ -157,7 +157,6 @@ CheckRows check_corner_tracks(const fs::path& folder) {
   Vloam estimator(calibration, config);
   const StampedPoses estimate = drive(estimator, read_samples(folder / "imu0.csv", calibration.imu_rate_hz), frames);
   const TrajectoryFigures figures = trajectory_figures(truth, estimate);
-  const auto shown = [](const std::optional<double>& value) { return value ? readable_text(*value) : "–"; };
   const std::string worst = shown(figures.max_error_m);
   return {{folder.filename().string(), "visual-inertial on corner tracks, stereo depth", "drift ≤ 1 %",
            shown(figures.drift_percent) + " % of " + readable_text(figures.distance_m) + " m, worst " + worst + " m",

@@ -12,7 +12,7 @@ namespace plumbline {
 namespace {
 
 constexpr double kLeft = 96.0;
-constexpr double kTop = 6.0;
+constexpr double kFirstRow = 6.0;
 constexpr double kRowHeight = 34.0;
 constexpr double kBelow = 48.0;
 constexpr std::size_t kLongestLabel = 11;
@@ -67,7 +67,7 @@ std::string column_labels(const HeatMap& map, double width, double bottom) {
 
 Drawing heat_map(const HeatMap& map) {
   const double width = (kChartRight - kLeft) / static_cast<double>(std::max<std::size_t>(1, map.columns.size()));
-  const double bottom = kTop + kRowHeight * static_cast<double>(map.rows.size());
+  const double bottom = kFirstRow + kRowHeight * static_cast<double>(map.rows.size());
   Drawing drawing{map.name, map.caption, map.unit, {}, kChartWidth, bottom + kBelow, {}};
   for (std::size_t r = 0; r < map.rows.size(); ++r) {
     const double y = bottom - kRowHeight * static_cast<double>(r + 1);

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kPictureWidth_px = 1400;
 constexpr int kMostHeight_px = 1400;
-constexpr int kMargin = 20;
+constexpr int kMargin_px = 20;
 const cv::Vec3b kPaper(255, 255, 255);  // blue, green, red
 const cv::Vec3b kOfA(200, 120, 40);
 const cv::Vec3b kOfB(40, 140, 240);
@@ -31,10 +31,10 @@ class View {
       }
     }
     const Eigen::Vector2f size = (extent.high - extent.low).cwiseMax(1.0F);
-    pixels_per_m_ = std::min(static_cast<float>(kPictureWidth_px - 2 * kMargin) / size.x(),
-                             static_cast<float>(kMostHeight_px - 2 * kMargin) / size.y());
+    pixels_per_m_ = std::min(static_cast<float>(kPictureWidth_px - 2 * kMargin_px) / size.x(),
+                             static_cast<float>(kMostHeight_px - 2 * kMargin_px) / size.y());
     low_ = extent.low;
-    const int height = static_cast<int>(size.y() * pixels_per_m_) + 2 * kMargin + 1;
+    const int height = static_cast<int>(size.y() * pixels_per_m_) + 2 * kMargin_px + 1;
     image_ = cv::Mat(height, kPictureWidth_px, CV_8UC3, cv::Scalar(kPaper));
     for (const MapPoint& point : a) paint(point, kOfA, kOfA);
     for (const MapPoint& point : b) paint(point, kOfB, kOfBoth);
@@ -47,8 +47,8 @@ class View {
   /// @param over_a  where the other map has painted
   void paint(const MapPoint& point, const cv::Vec3b& alone, const cv::Vec3b& over_a) {
     const Eigen::Vector2f at = (flat(point) - low_) * pixels_per_m_;
-    const int column = std::clamp(kMargin + static_cast<int>(at.x()), 0, image_.cols - 1);
-    const int row = std::clamp(image_.rows - 1 - kMargin - static_cast<int>(at.y()), 0, image_.rows - 1);
+    const int column = std::clamp(kMargin_px + static_cast<int>(at.x()), 0, image_.cols - 1);
+    const int row = std::clamp(image_.rows - 1 - kMargin_px - static_cast<int>(at.y()), 0, image_.rows - 1);
     auto& pixel = image_.at<cv::Vec3b>(row, column);
     pixel = pixel == kOfA || pixel == kOfBoth ? over_a : alone;
   }

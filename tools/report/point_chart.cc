@@ -11,7 +11,7 @@ namespace plumbline {
 namespace {
 
 constexpr double kHeight = 240.0;
-constexpr double kTop = 10.0;
+constexpr double kPlotTop = 10.0;
 constexpr double kBottom = 190.0;
 constexpr double kInset = 26.0;      // of the first and last setting from the plot's edges
 constexpr double kApart = 7.0;       // between dots of several series at one setting
@@ -98,7 +98,7 @@ bool needs_rows(const PointChart& chart) {
 /// A row per setting, values to the right.
 Drawing row_chart(const PointChart& chart) {
   const double row = kRow + kApart * static_cast<double>(chart.series.size() - 1);
-  const double bottom = kTop + row * static_cast<double>(chart.ticks.size());
+  const double bottom = kPlotTop + row * static_cast<double>(chart.ticks.size());
   const ChartRange range = y_range(chart);
   const ChartScale to_x(range, kRowsLeft, kChartRight - 10.0);
   Drawing drawing{chart.name, chart.caption, chart.unit, {}, kChartWidth, bottom + 48.0, {}};
@@ -106,11 +106,11 @@ Drawing row_chart(const PointChart& chart) {
   const double step = marks.size() > 1 ? marks[1] - marks[0] : 1.0;
   const double shown = chart.percent ? 100.0 : 1.0;
   for (const double mark : marks) {
-    drawing.body += svg_line(to_x(mark), kTop, to_x(mark), bottom, mark == 0.0 ? "axis" : "grid");
+    drawing.body += svg_line(to_x(mark), kPlotTop, to_x(mark), bottom, mark == 0.0 ? "axis" : "grid");
     drawing.body += svg_text(to_x(mark), bottom + 18.0, "middle", tick_text(shown * mark, shown * step));
   }
   drawing.body += svg_text(kRowsLeft - 10.0, bottom + 40.0, "end", chart.x_label);
-  const auto middle_of = [&](std::size_t tick) { return kTop + row * (static_cast<double>(tick) + 0.5); };
+  const auto middle_of = [&](std::size_t tick) { return kPlotTop + row * (static_cast<double>(tick) + 0.5); };
   for (std::size_t t = 0; t < chart.ticks.size(); ++t) drawing.body += row_label(middle_of(t), chart.ticks[t].label);
   for (std::size_t i = 0; i < chart.series.size(); ++i) {
     const PointChart::Series& series = chart.series[i];
@@ -168,7 +168,7 @@ Drawing point_chart(const PointChart& chart) {
   if (needs_rows(chart)) return row_chart(chart);
   const ChartRange range = y_range(chart);
   const ChartScale to_x = x_scale(chart);
-  const ChartScale to_y(range, kBottom, kTop);
+  const ChartScale to_y(range, kBottom, kPlotTop);
   Drawing drawing{chart.name, chart.caption, chart.unit, {}, kChartWidth, kHeight, {}};
   drawing.body = y_axis(chart, range, to_y) + x_axis_of(chart, to_x);
   const auto count = static_cast<double>(chart.series.size());

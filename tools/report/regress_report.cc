@@ -75,8 +75,6 @@ std::string badge_cell(const MeasuredRun& run) {
   return "<td><span class=\"badge " + escape_markup(run.status) + "\">" + escape_markup(run.status) + "</span></td>";
 }
 
-std::string shown(const std::optional<double>& value) { return value ? readable_text(*value) : "–"; }
-
 std::string both(const RegressFigure& figure, const RunPair& pair) {
   return number_cell(shown(figure.value(*pair.before)) + " → " + shown(figure.value(*pair.after)));
 }

@@ -10,8 +10,6 @@
 namespace plumbline {
 namespace {
 
-std::string shown(const std::optional<double>& value) { return value ? readable_text(*value) : "–"; }
-
 std::string figure_tile(const std::string& name, const std::optional<double>& value, const std::string& unit) {
   return tile(name, shown(value), value ? unit : "");
 }

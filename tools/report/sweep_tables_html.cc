@@ -15,9 +15,7 @@ namespace {
 constexpr std::size_t kMostFailures = 100;
 constexpr std::size_t kMostRows = 1000;
 
-std::string shown(const std::optional<double>& value) { return value ? readable_text(*value) : "–"; }
-
-std::string shown(const std::optional<Interval>& interval, double factor = 1.0) {
+std::string with_limits(const std::optional<Interval>& interval, double factor = 1.0) {
   if (!interval) return "–";
   return readable_text(factor * interval->value) + " (" + readable_text(factor * interval->low) + " … " +
          readable_text(factor * interval->high) + ")";
@@ -108,9 +106,10 @@ std::string estimator_table(const SweepPlan& plan, const std::vector<RunRow>& ro
         static_cast<std::size_t>(std::count_if(own.begin(), own.end(), [](const RunRow* row) { return row->is_ok(); }));
     const auto rate = own.empty() ? std::nullopt : std::optional(wilson_interval(ok, own.size()));
     const auto ratio = bootstrap_median(drift_ratios(plan, rows, estimator, first), "sweep.report.ratio");
-    html += "<tr>" + text_cell(estimator) + number_cell(std::to_string(own.size())) + number_cell(shown(rate, 100.0)) +
-            number_cell(shown(bootstrap_median(figures_of(own, "drift_percent"), "sweep.report.drift"))) +
-            number_cell(estimator == first ? "" : "× " + shown(ratio)) +
+    html += "<tr>" + text_cell(estimator) + number_cell(std::to_string(own.size())) +
+            number_cell(with_limits(rate, 100.0)) +
+            number_cell(with_limits(bootstrap_median(figures_of(own, "drift_percent"), "sweep.report.drift"))) +
+            number_cell(estimator == first ? "" : "× " + with_limits(ratio)) +
             number_cell(mean_percent(figures_of(own, "modules.lidar.degenerate_share"))) +
             number_cell(mean_percent(figures_of(own, "modules.vision.degenerate_share"))) + "</tr>";
   }
@@ -152,7 +151,7 @@ std::string boundary_table(const SweepPlan& plan, const std::vector<RunRow>& row
                          value_of_share(axis, estimate.high)};
     const std::string side = estimate.probability_falling > 0.5 ? "below" : "above";
     html += "<tr>" + text_cell(curve.label) +
-            text_cell(is_inside ? shown(place)
+            text_cell(is_inside ? with_limits(place)
                                 : "none in this range (with " +
                                       readable_text(100.0 * (1.0 - estimate.probability_inside)) + " % probability)") +
             text_cell(is_inside ? side : "–") + number_cell(std::to_string(search.made())) +

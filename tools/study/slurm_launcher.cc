@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::chrono::seconds kAskEvery{2};
-constexpr std::chrono::milliseconds kLookEvery{100};
+constexpr std::chrono::milliseconds kHeedInterruptsEvery{100};
 constexpr Shard kWhole{};
 
 /// Files of the array, in slurm/ below the sweep's directory: job (its id), task.sh, a directory per shard, I.log.
@@ -118,7 +118,7 @@ void wait_for(const std::string& job, const ArrayFiles& files, std::size_t expec
         cancel(job);
         cancelled = true;
       }
-      std::this_thread::sleep_for(kLookEvery);
+      std::this_thread::sleep_for(kHeedInterruptsEvery);
     }
     const double share =
         static_cast<double>(finished_runs(files)) / static_cast<double>(std::max<std::size_t>(expected, 1));
