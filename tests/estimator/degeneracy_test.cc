@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
 #include <limits>
 
+#include "estimator/geometry/symmetric_eigen.h"
 #include "sim/random_stream.h"
 
 namespace plumbline {
@@ -21,7 +21,7 @@ KnownMatrix known_matrix(const Vector6d& eigenvalues, std::uint64_t seed) {
   Matrix6d draws;
   for (int i = 0; i < 36; ++i) draws.data()[i] = random.gaussian();
   KnownMatrix known;
-  known.eigenvectors = Eigen::HouseholderQR<Matrix6d>(draws).householderQ();
+  known.eigenvectors = SymmetricEigen<Matrix6d>(draws + draws.transpose()).vectors;
   known.matrix = known.eigenvectors * eigenvalues.asDiagonal() * known.eigenvectors.transpose();
   return known;
 }

@@ -13,7 +13,7 @@
 namespace plumbline {
 namespace {
 
-constexpr double kRangeSigma = 0.015;
+constexpr double kRowSigma = 0.015;
 
 using Rows = std::vector<MatchRow>;
 
@@ -60,7 +60,7 @@ Rows sphere() {
   return rows;
 }
 
-double worst(Detector detector, const Rows& rows) { return detect(detector, rows, kRangeSigma).worst(); }
+double worst(Detector detector, const Rows& rows) { return detect(detector, rows, kRowSigma).worst(); }
 
 TEST(Detectors, ScoreATunnelAndAPlainBelowARoom) {
   for (const Detector detector : kDetectors) {
@@ -73,7 +73,7 @@ TEST(Detectors, ScoreATunnelAndAPlainBelowARoom) {
 TEST(Detectors, FindTheTunnelsAxis) {
   for (const Detector detector : kDetectors) {
     SCOPED_TRACE(to_string(detector));
-    const Vector6d found = detect(detector, tunnel(), kRangeSigma).directions.front();
+    const Vector6d found = detect(detector, tunnel(), kRowSigma).directions.front();
     // Within a few degrees: the normals' noise leans the direction.
     EXPECT_GT(std::abs(found[3]), std::cos(5.0 * std::numbers::pi / 180.0)) << found.transpose();
   }
@@ -83,7 +83,7 @@ TEST(Detectors, FindThatASphereKnowsNoRotationUnlessTheyLookAtTranslationOnly) {
   for (const Detector detector : kDetectors) {
     if (detector == Detector::kCoinLio) continue;
     SCOPED_TRACE(to_string(detector));
-    const Detection detection = detect(detector, sphere(), kRangeSigma);
+    const Detection detection = detect(detector, sphere(), kRowSigma);
     // DCReg's conditions are relative to each block, and all of a sphere's rotations are equally bad.
     if (detector == Detector::kSchur) continue;
     EXPECT_LT(worst(detector, sphere()), worst(detector, room()));
@@ -97,7 +97,7 @@ TEST(Detectors, FindThatASphereKnowsNoRotationUnlessTheyLookAtTranslationOnly) {
 TEST(Detectors, AreAscendingAndHaveUnitDirections) {
   for (const Detector detector : kDetectors) {
     SCOPED_TRACE(to_string(detector));
-    const Detection detection = detect(detector, room(), kRangeSigma);
+    const Detection detection = detect(detector, room(), kRowSigma);
     ASSERT_EQ(detection.scores.size(), detection.directions.size());
     EXPECT_TRUE(std::is_sorted(detection.scores.begin(), detection.scores.end()));
     for (const Vector6d& direction : detection.directions) EXPECT_NEAR(direction.norm(), 1.0, 1e-9);

@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-const CameraIntrinsics kCamera{640, 360, 474.0, 474.0, 319.5, 179.5};
+const CameraIntrinsics kDepthCamera{640, 360, 474.0, 474.0, 319.5, 179.5};
 
 /// Camera at the world's origin, z forward: the world here is the camera's own frame.
 std::vector<Vector3f> rings_on_plane(const Vector3d& point, const Vector3d& normal, double left_deg, double right_deg,
@@ -31,7 +31,7 @@ std::vector<Vector3f> rings_on_plane(const Vector3d& point, const Vector3d& norm
 }
 
 DepthMap map_of(const std::vector<Vector3f>& points) {
-  DepthMap map(kCamera, DepthMapConfig{});
+  DepthMap map(kDepthCamera, DepthMapConfig{});
   map.add(0, DepthSource::kLidar, points, std::nullopt);
   map.look_from(Pose{}, 0);
   return map;
@@ -59,7 +59,7 @@ TEST(DepthMap, FindsAPlanesDepthBetweenTheRings) {
 
 TEST(DepthMap, ReadsTheViewFromWhereTheCameraIs) {
   const std::vector<Vector3f> points = rings_on_plane({0, 0, 5}, {0, 0, -1}, -38, 38);
-  DepthMap map(kCamera, DepthMapConfig{});
+  DepthMap map(kDepthCamera, DepthMapConfig{});
   map.add(0, DepthSource::kLidar, points, std::nullopt);
   map.look_from({Eigen::Quaterniond::Identity(), Vector3d(0.1, 0.0, 0.5)}, 0);
   const auto depth = map.depth_along({0.05, 0.02, 1});
@@ -101,7 +101,7 @@ TEST(DepthMap, RefusesGrazingPlanesAndPlacesWithoutPoints) {
 }
 
 TEST(DepthMap, IgnoresPointsBehindOldPointsAndNonsense) {
-  DepthMap map(kCamera, DepthMapConfig{});
+  DepthMap map(kDepthCamera, DepthMapConfig{});
   EXPECT_FALSE(map.depth_along({0, 0, 1}).has_value());
   map.look_from(Pose{}, 0);
   EXPECT_FALSE(map.depth_along({0, 0, 1}).has_value());
@@ -121,11 +121,11 @@ TEST(DepthMap, IgnoresPointsBehindOldPointsAndNonsense) {
 
 TEST(DepthMap, CroppingAtInsertionCostsNothingInsideTheView) {
   const std::vector<Vector3f> points = rings_on_plane({0, 0, 5}, {0, 0, -1}, -60, 60);
-  DepthMap cropped(kCamera, DepthMapConfig{});
+  DepthMap cropped(kDepthCamera, DepthMapConfig{});
   cropped.add(0, DepthSource::kLidar, points, Pose{});
   const Pose turned{exp_so3({0.0, 0.3, 0.0}), Vector3d(0.1, 0, 0)};
   cropped.look_from(turned, 0);
-  DepthMap whole(kCamera, DepthMapConfig{});
+  DepthMap whole(kDepthCamera, DepthMapConfig{});
   whole.add(0, DepthSource::kLidar, points, std::nullopt);
   whole.look_from(turned, 0);
   EXPECT_EQ(cropped.points_in_view(), whole.points_in_view());

@@ -24,12 +24,12 @@ FeatureSighting sighting_of(const Eigen::Vector2d& keyframe_pixel, double depth,
   return f;
 }
 
-CameraMotion sideways(double metres) {
+CameraMotion moved_sideways(double metres) {
   return camera_motion({exp_so3({0.01, 0.02, -0.03}), Vector3d(0.05, metres, 0.0)}, kBodyFromCamera);
 }
 
 TEST(Triangulation, RecoversDepthExactlyWithoutNoise) {
-  const CameraMotion motion = sideways(0.4);
+  const CameraMotion motion = moved_sideways(0.4);
   const auto depth = triangulate(motion, kCamera, sighting_of({400, 150}, kDepth, motion, {0, 0}));
   ASSERT_TRUE(depth.has_value());
   EXPECT_NEAR(1.0 / depth->mean, kDepth, 1e-9);
@@ -44,7 +44,7 @@ TEST(Triangulation, RefusesRaysNearTheMotionAxisAndTinyBaselines) {
 }
 
 TEST(Triangulation, RefusesASightingOffItsEpipolarLine) {
-  const CameraMotion motion = sideways(0.4);
+  const CameraMotion motion = moved_sideways(0.4);
   EXPECT_FALSE(triangulate(motion, kCamera, sighting_of({400, 150}, kDepth, motion, {0, 5})).has_value());
 }
 

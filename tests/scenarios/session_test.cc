@@ -18,7 +18,7 @@
 namespace plumbline {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr char kScenario[] = R"(
 world: {mjcf: room.xml}
@@ -86,7 +86,7 @@ class RecordingEstimator : public Estimator {
   std::array<std::int64_t, 3> used_{};
 };
 
-class Session : public testing::Test {
+class Session : public ::testing::Test {
  protected:
   Scenario load(const std::vector<std::string>& overrides = {}) const {
     files_.write("room.xml", kRoom);
@@ -259,10 +259,10 @@ TEST_F(Session, EndsInOrderWhenItIsToldTo) {
 
 TEST_F(Session, RefusesAWorldAndAMotionThatCannotBe) {
   const Scenario standing = load({"motion.waypoints=[[0, 0, 1], [0, 0, 1]]"});
-  EXPECT_THAT([&] { body_trajectory(standing); }, testing::ThrowsMessage<InputError>(HasSubstr("waypoints")));
+  EXPECT_THAT([&] { body_trajectory(standing); }, ::testing::ThrowsMessage<InputError>(HasSubstr("waypoints")));
   const Scenario broken = load();
   files_.write("room.xml", "<mujoco><worldbody><geom type='cube'/></worldbody></mujoco>");
-  EXPECT_THAT([&] { make_world(broken); }, testing::ThrowsMessage<InputError>(HasSubstr("room.xml")));
+  EXPECT_THAT([&] { make_world(broken); }, ::testing::ThrowsMessage<InputError>(HasSubstr("room.xml")));
 }
 
 TEST(CalibrationOfARig, HoldsTheMountingAndTheDataSheetOnly) {

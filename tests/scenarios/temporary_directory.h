@@ -14,9 +14,9 @@ namespace plumbline {
 class TemporaryDirectory {
  public:
   TemporaryDirectory() {
-    std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::string test = ::testing::UnitTest::GetInstance()->current_test_info()->name();
     std::replace(test.begin(), test.end(), '/', '-');
-    path_ = std::filesystem::path(testing::TempDir()) / ("plumbline-" + test + "-" + std::to_string(getpid()));
+    path_ = std::filesystem::path(::testing::TempDir()) / ("plumbline-" + test + "-" + std::to_string(getpid()));
     std::filesystem::create_directories(path_);
   }
   TemporaryDirectory(const TemporaryDirectory&) = delete;

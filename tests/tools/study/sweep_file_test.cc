@@ -12,14 +12,14 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr const char* kScenario = R"(
+constexpr const char* kBaseScenario = R"(
 motion:
   waypoints: [[4, 4.75, 1.5], [24, 4.75, 1.5]]
 )";
 
 class SweepFileTest : public ::testing::Test {
  protected:
-  SweepFileTest() { directory_.write("base.yaml", kScenario); }
+  SweepFileTest() { directory_.write("base.yaml", kBaseScenario); }
 
   SweepFile read(const std::string& text) const {
     return read_sweep_file(directory_.write("sweep.yaml", "scenario: base.yaml\n" + text));
@@ -120,7 +120,7 @@ TEST_F(SweepFileTest, SaysWhatTwoPlansDifferIn) {
   const std::string plan = plan_json(make_plan(read("seeds: 2")));
   EXPECT_EQ(plan_difference(plan, plan), "");
   EXPECT_THAT(plan_difference(plan, plan_json(make_plan(read("seeds: 3")))), HasSubstr("seeds"));
-  directory_.write("base.yaml", std::string(kScenario) + "world: {light: {lux: 5}}\n");
+  directory_.write("base.yaml", std::string(kBaseScenario) + "world: {light: {lux: 5}}\n");
   EXPECT_THAT(plan_difference(plan, plan_json(make_plan(read("seeds: 2")))), HasSubstr("scenario itself"));
 }
 

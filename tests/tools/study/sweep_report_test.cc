@@ -12,7 +12,7 @@
 namespace plumbline {
 namespace {
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool page_contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 AxisValue number(double value) { return {std::to_string(static_cast<int>(value)), value}; }
 
@@ -55,14 +55,14 @@ TEST(SweepReport, ShowsChartsIntervalsAndRankedFailures) {
   const SweepPlan plan = a_plan();
   const SweepReport report = sweep_report(plan, rows_of(plan));
   for (const char* title : {"Estimators", "Failures", "Success", "Drift", "Degeneracy", "All runs"}) {
-    EXPECT_TRUE(contains(report.html, title)) << title;
+    EXPECT_TRUE(page_contains(report.html, title)) << title;
   }
   // 29 of 36: Wilson's interval, worked out by hand to the digit that is shown.
-  EXPECT_TRUE(contains(report.html, "80.6 <small>% (65.0 … 90.2)"));
+  EXPECT_TRUE(page_contains(report.html, "80.6 <small>% (65.0 … 90.2)"));
   // The crash stands before the broken expectations, and links nowhere: it has no page.
   EXPECT_LT(report.html.find("killed by &lt;signal&gt; 11"), report.html.find("expected at most 1"));
-  EXPECT_TRUE(contains(report.html, "href=\"runs/1003/report.html\""));
-  EXPECT_FALSE(contains(report.html, "runs/1000/report.html"));
+  EXPECT_TRUE(page_contains(report.html, "href=\"runs/1003/report.html\""));
+  EXPECT_FALSE(page_contains(report.html, "runs/1000/report.html"));
   if (const char* path = std::getenv("PLUMBLINE_REPORT_TO")) std::ofstream(path) << report.html;
 }
 
@@ -73,8 +73,8 @@ TEST(SweepReport, EveryChartIsADocumentOfItsOwn) {
   EXPECT_EQ(report.charts.size(), 2U * (2U + 2U) + 4U);
   for (const Drawing& chart : report.charts) {
     const std::string svg = svg_document(chart);
-    EXPECT_TRUE(contains(svg, "xmlns=\"http://www.w3.org/2000/svg\"")) << chart.name;
-    EXPECT_TRUE(contains(svg, "<style>")) << chart.name;
+    EXPECT_TRUE(page_contains(svg, "xmlns=\"http://www.w3.org/2000/svg\"")) << chart.name;
+    EXPECT_TRUE(page_contains(svg, "<style>")) << chart.name;
     EXPECT_EQ(chart.name.find_first_of("/. "), std::string::npos) << chart.name;
   }
 }
@@ -105,12 +105,12 @@ TEST(SweepReport, NeedsNothingFromOutsideAndEscapesWhatItWasGiven) {
   const SweepPlan plan = a_plan();
   const std::string page = sweep_report(plan, rows_of(plan)).html;
   for (const char* outside : {"http:", "https:", "src=", "@import", "url(", "<script", "<link", "<and>", "nan"}) {
-    EXPECT_FALSE(contains(page, outside)) << outside;
+    EXPECT_FALSE(page_contains(page, outside)) << outside;
   }
 }
 
 TEST(SweepReport, StandsBeforeAnyRunHasEnded) {
-  EXPECT_TRUE(contains(sweep_report(a_plan(), {}).html, "of 36 planned"));
+  EXPECT_TRUE(page_contains(sweep_report(a_plan(), {}).html, "of 36 planned"));
 }
 
 }  // namespace
