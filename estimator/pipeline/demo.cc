@@ -21,7 +21,8 @@ constexpr double kPredictionInformation = 2500.0;
 /// Of a sweep's predicted pose besides the motion since the last one: the map's own.
 constexpr double kMapRotationSigma = 0.002;
 constexpr double kMapTranslationSigma_m = 0.02;
-constexpr double kLost_s = 2.0;  // without any image that could be solved
+constexpr double kLost_s = 2.0;   // without any image or scan that could be solved
+constexpr double kBlind_s = 0.3;  // without an image that could be solved: scans tell the velocity
 
 FrameToFrameConfig vision_config(const DemoConfig& stages) {
   FrameToFrameConfig config;
@@ -115,6 +116,7 @@ void Demo::note(const FrameToFrame::Step& step, std::int64_t previous_ns) {
   covariance_rate_ = added / seconds_between(previous_ns, newest_ns);
   if (step.skipped) return;
   solved_ns_ = newest_ns;
+  fixed_ns_ = std::max(fixed_ns_, newest_ns);
   ++images_;
 }
 
@@ -138,11 +140,25 @@ void Demo::use_scans(std::int64_t now_ns) {
     const std::int64_t end_ns = scans_.front().end_ns;
     const bool covered = !odometry_.empty() && end_ns <= odometry_.last_ns();
     if (!covered && now_ns < end_ns + kLongestWait_ns) return;
-    if (!covered && vision_.started()) odometry_.push(end_ns, vision_.predicted(end_ns));
+    if (!covered) go_on_without_images(scans_.front());
     const LidarScan scan = std::move(scans_.front());
     scans_.pop_front();
     use(scan);
   }
+}
+
+/// A scan that no image has followed is placed where the motion leads that was known last, at first none.
+void Demo::go_on_without_images(const LidarScan& scan) {
+  if (!vision_.started()) {
+    if (!stages_.scan_matching && !stages_.sweep_refinement) return;
+    odometry_.push(scan.stamp_ns, {});
+    vision_.go_on(scan.stamp_ns, Vector6d::Zero());
+  }
+  odometry_.push(scan.end_ns, vision_.predicted(scan.end_ns));
+  const Matrix6d unseen = kImageInflation / kPredictionInformation * Matrix6d::Identity();
+  covariance_ += unseen;
+  since_match_ += unseen;
+  covariance_rate_ = unseen / seconds_between(scan.stamp_ns, scan.end_ns);
 }
 
 void Demo::use(const LidarScan& scan) {
@@ -176,10 +192,17 @@ void Demo::match(const FeatureCloud& features, std::int64_t stamp_ns, const Pose
   const StopWatch watch;
   const SolveResult solved = matcher_.match(features, {predicted, since_match_covariance()});
   integration_.refine(solved.pose, odometry_.at(stamp_ns));
+  const std::int64_t last_ns = std::exchange(match_ns_, stamp_ns);
+  if (last_ns != 0 && seconds_between(solved_ns_, stamp_ns) > kBlind_s) {
+    vision_.go_on(stamp_ns, world_from_last_match_.local(solved.pose) / seconds_between(last_ns, stamp_ns));
+  }
   path_m_ += (solved.pose.translation - world_from_last_match_.translation).norm();
   world_from_last_match_ = solved.pose;
   matcher_.insert(features, solved.pose, path_m_);
-  if (solved.spectrum.well_conditioned == 6) since_match_.setZero();
+  if (solved.spectrum.well_conditioned == 6) {
+    since_match_.setZero();
+    fixed_ns_ = std::max(fixed_ns_, stamp_ns);
+  }
   health_.push_back(health_of(stamp_ns, Module::kLidar, solved, predicted, seconds + watch.seconds()));
 }
 
@@ -200,7 +223,7 @@ Odometry Demo::output(std::int64_t stamp_ns) {
   const double since_output_s = output_ns_ == 0 ? 0.0 : seconds_between(output_ns_, stamp_ns);
   odometry.increment_covariance = since_output_s * covariance_rate_;
   output_ns_ = stamp_ns;
-  odometry.lost = (solved_ns_ != 0 && seconds_between(solved_ns_, stamp_ns) > kLost_s) ||
+  odometry.lost = (fixed_ns_ != 0 && seconds_between(fixed_ns_, stamp_ns) > kLost_s) ||
                   odometry.covariance.bottomRightCorner<3, 3>().trace() > kLostSigma_m * kLostSigma_m;
   return odometry;
 }

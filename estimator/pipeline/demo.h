@@ -19,7 +19,8 @@ namespace plumbline {
 struct DemoConfig {
   bool bundle_adjustment = true;
   bool map_depth_only = false;    ///< the baseline that leaves features without measured depth unused
-  bool scan_matching = false;     ///< refine every scan against the map (thesis ch. 6)
+  bool scan_matching = false;     ///< refine every scan against the map (thesis ch. 6); where no image shows the
+                                  ///< motion, its velocity is then told by the scans
   bool sweep_refinement = false;  ///< before that, against the sweep before; whole sweeps are matched (thesis ch. 7)
 };
 
@@ -50,6 +51,7 @@ class Demo final : public Estimator {
   void note(const FrameToFrame::Step& step, std::int64_t previous_ns);
   void adjust_when_due();
   void use_scans(std::int64_t now_ns);
+  void go_on_without_images(const LidarScan& scan);
   void use(const LidarScan& scan);
   void refine_with_sweep(const LidarScan& part);
   void match(const FeatureCloud& features, std::int64_t stamp_ns, const Pose& predicted, double seconds);
@@ -71,6 +73,8 @@ class Demo final : public Estimator {
   std::vector<BundleImage> bundle_;
   std::int64_t images_ = 0;     ///< solved so far
   std::int64_t solved_ns_ = 0;  ///< stamp of the last image that was solved
+  std::int64_t match_ns_ = 0;   ///< of the last sweep matched
+  std::int64_t fixed_ns_ = 0;   ///< of the last image or sweep that determined all directions
 
   Matrix6d covariance_ = Matrix6d::Zero();       ///< of world_from_body at the newest image
   Matrix6d covariance_rate_ = Matrix6d::Zero();  ///< its growth [1/s]

@@ -87,7 +87,7 @@ std::unique_ptr<Estimator> make_demo(const std::string& name, const Calibration&
   // Matched to the map every sweep, the motion is corrected long before a window of forty images is full.
   stages.bundle_adjustment = name == "demo";
   stages.map_depth_only = name == "vo_depth_only";
-  stages.scan_matching = name == "demo_matched";
+  stages.scan_matching = name == "demo_matched" || name == "vloam";
   stages.sweep_refinement = name == "demo_loam";
   return std::make_unique<Demo>(calibration, config, stages);
 }
@@ -96,6 +96,16 @@ std::unique_ptr<Estimator> make_loam(const std::string& name, const Calibration&
                                      const EstimatorConfig& config) {
   if (name == "loam_imu_orientation") return std::make_unique<Loam>(calibration, config, ImuUse::kOrientation);
   return std::make_unique<Loam>(calibration, config, config.imu_enabled ? ImuUse::kFull : ImuUse::kNone);
+}
+
+/// Motion that nothing predicts has to be seen within the sweep: by the camera, as in thesis ch. 6, or, without one, by
+/// the sweep itself.
+std::unique_ptr<Estimator> make_without_imu(const std::string& name, const Calibration& calibration,
+                                            const EstimatorConfig& config) {
+  const bool sees = calibration.has_camera && config.vision_enabled;
+  if (name == "vio" || (name == "vloam" && sees)) return make_demo(name, calibration, config);
+  if (name == "imu_lidar" || name == "vloam") return make_loam(name, calibration, config);
+  throw std::invalid_argument("estimator: '" + name + "' needs the IMU, which estimator.imu.enabled switches off");
 }
 
 void validate_or_throw(const std::string& name, const Calibration& calibration) {
@@ -118,7 +128,8 @@ std::unique_ptr<Estimator> make_estimator(const std::string& name, const Calibra
   validate_or_throw(name, calibration);
   if (name.starts_with("loam")) return make_loam(name, calibration, config);
   const bool demo = name.starts_with("demo") || name == "vo_depth_only";
-  return demo ? make_demo(name, calibration, config) : make_vloam(name, calibration, config);
+  if (demo) return make_demo(name, calibration, config);
+  return config.imu_enabled ? make_vloam(name, calibration, config) : make_without_imu(name, calibration, config);
 }
 
 }  // namespace plumbline

@@ -22,27 +22,11 @@ constexpr double kVisionMemory_s = 1.0;
 // Those of scan matching are the map's (see InertialFilter and MatchDrift).
 constexpr double kLidarInflation = 1.0;
 
-/// Without an IMU its samples are a clock: no rate, no force, and "biases" free enough to be the motion itself, which
-/// makes the mechanisation a constant-rate, constant-acceleration predictor.
-ImuNoise clock_only() {
-  ImuNoise noise;
-  noise.gyro_random_walk = 3.0;
-  noise.accel_random_walk = 20.0;
-  noise.gyro_turn_on_sigma = 1.0;
-  noise.accel_turn_on_sigma = 3.0;
-  return noise;
-}
-
-Calibration effective(Calibration calibration, const EstimatorConfig& config) {
-  if (!config.imu_enabled) calibration.imu = clock_only();
-  return calibration;
-}
-
 }  // namespace
 
 Vloam::Vloam(const Calibration& calibration, const EstimatorConfig& config, const VisionConfig& vision,
              const ScanMatcherConfig& matcher, Coupling coupling)
-    : calibration_(effective(calibration, config)),
+    : calibration_(calibration),
       config_(config),
       coupling_(coupling),
       gate_(message_use(calibration_, config)),
@@ -51,10 +35,8 @@ Vloam::Vloam(const Calibration& calibration, const EstimatorConfig& config, cons
       matcher_(calibration_, matcher, config.remapping) {}
 
 void Vloam::add(const ImuSample& received) {
-  std::optional<ImuSample> sample = gate_.admit(received);
+  const std::optional<ImuSample> sample = gate_.admit(received);
   if (!sample) return;
-  // Without an IMU level at the start, by decree: there is nothing else to go by.
-  if (!config_.imu_enabled && !filter_) sample->specific_force.z() = kStandardGravity;
   const ImuSample previous = std::exchange(last_sample_, *sample);
   if (!filter_) {
     if (const auto start = initializer_.add(*sample)) start_with(*start, *sample);
@@ -74,10 +56,8 @@ void Vloam::add(const ImuSample& received) {
 }
 
 void Vloam::start_with(const InitialState& start, const ImuSample& sample) {
-  InitialState initial = start;
-  if (!config_.imu_enabled) initial.state.accel_bias = Eigen::Vector3d(0.0, 0.0, -kStandardGravity);
-  filter_.emplace(initial, calibration_.imu, config_.remapping);
-  track_.push(sample.stamp_ns, initial.state.world_from_body);
+  filter_.emplace(start, calibration_.imu, config_.remapping);
+  track_.push(sample.stamp_ns, start.state.world_from_body);
   turn_track_.push(sample.stamp_ns, {});
   keyframe_ns_ = sample.stamp_ns;
   last_image_ns_ = sample.stamp_ns;
@@ -146,10 +126,7 @@ double Vloam::vision_inflation(std::int64_t image_ns) {
 void Vloam::start_keyframe_when_due(std::int64_t image_ns) {
   if (!vision_.wants_keyframe()) return;
   const Pose world_from_body = track_.at(image_ns);
-  // Without an IMU the camera's own word is all there is.
-  const Eigen::Quaterniond turn =
-      config_.imu_enabled ? turn_track_.at(keyframe_ns_).rotation.conjugate() * turn_track_.at(image_ns).rotation
-                          : filter_->world_from_keyframe().rotation.conjugate() * world_from_body.rotation;
+  const Eigen::Quaterniond turn = turn_track_.at(keyframe_ns_).rotation.conjugate() * turn_track_.at(image_ns).rotation;
   filter_->set_keyframe(world_from_body);
   vision_.start_keyframe(world_from_body, turn);
   keyframe_ns_ = image_ns;

@@ -49,6 +49,7 @@ struct FrameToFrame::Impl {
   template <typename Frame>
   void add_stereo(const Frame& right);
   Pose motion_over(double seconds) const;
+  Pose predicted(std::int64_t stamp_ns) const;
   void choose_rows(const Pose& predicted);
   SolveResult solve_motion(const Pose& predicted) const;
   void accept(const SolveResult& solved);
@@ -66,6 +67,7 @@ struct FrameToFrame::Impl {
   bool count_due = false;  ///< features were refilled, and some may have to go for want of depth
 
   bool started = false;
+  bool has_reference = false;  ///< false: gone on without an image so far
   std::int64_t reference_ns = 0;
   std::int64_t newest_ns = 0;
   Pose odometry_from_reference;
@@ -94,14 +96,20 @@ void FrameToFrame::add_depth_image(const DepthFrame& frame) {
   impl_->set.add_depth_image(frame, predicted(frame.stamp_ns));
 }
 
+void FrameToFrame::go_on(std::int64_t stamp_ns, const Vector6d& velocity) {
+  if (!started() || stamp_ns > impl_->newest_ns) {
+    impl_->odometry_from_newest = predicted(stamp_ns);
+    impl_->newest_ns = stamp_ns;
+    impl_->started = true;
+  }
+  impl_->velocity = velocity;
+}
+
 bool FrameToFrame::started() const { return impl_->started; }
 std::int64_t FrameToFrame::newest_ns() const { return impl_->newest_ns; }
 const Pose& FrameToFrame::odometry_from_body() const { return impl_->odometry_from_newest; }
 
-Pose FrameToFrame::predicted(std::int64_t stamp_ns) const {
-  if (!impl_->started) return {};
-  return impl_->odometry_from_newest * impl_->motion_over(seconds_between(impl_->newest_ns, stamp_ns));
-}
+Pose FrameToFrame::predicted(std::int64_t stamp_ns) const { return started() ? impl_->predicted(stamp_ns) : Pose{}; }
 
 std::vector<FrameToFrame::Sighting> FrameToFrame::inliers() const {
   std::vector<Sighting> sightings;
@@ -116,7 +124,7 @@ std::vector<TrackedFeature> FrameToFrame::features() const { return impl_->set.s
 
 template <typename Frame>
 void FrameToFrame::Impl::add_stereo(const Frame& right) {
-  const bool shows_reference = started && right.stamp_ns == reference_ns && reference_ns == newest_ns;
+  const bool shows_reference = has_reference && right.stamp_ns == reference_ns && reference_ns == newest_ns;
   if (shows_reference) set.give_stereo_depth(right);
 }
 
@@ -124,16 +132,19 @@ template <typename Frame>
 FrameToFrame::Step FrameToFrame::Impl::process(const Frame& frame) {
   Step step;
   if (!set.take(frame)) return step;
-  if (!started) {
+  if (!has_reference) {
+    has_reference = true;
+    if (started) odometry_from_newest = predicted(frame.stamp_ns);
     started = true;
+    odometry_from_reference = odometry_from_newest;
     reference_ns = newest_ns = frame.stamp_ns;
     refill();
     set.give_depth(odometry_from_reference, reference_ns);
     return step;
   }
   const Pose reference_from_last = odometry_from_reference.inverse() * odometry_from_newest;
+  step.predicted = odometry_from_reference.inverse() * predicted(frame.stamp_ns);
   newest_ns = frame.stamp_ns;
-  step.predicted = motion_over(seconds_between(reference_ns, newest_ns));
   if (config.map_depth_only) std::erase_if(set.features, [](const Feature& f) { return !measured(f); });
   if (std::exchange(count_due, false)) refilled_features = set.features.size();
   set.track(step.predicted, reference_from_last);
@@ -150,6 +161,10 @@ FrameToFrame::Step FrameToFrame::Impl::process(const Frame& frame) {
 
 Pose FrameToFrame::Impl::motion_over(double seconds) const {
   return {exp_so3(seconds * velocity.head<3>()), seconds * velocity.tail<3>()};
+}
+
+Pose FrameToFrame::Impl::predicted(std::int64_t stamp_ns) const {
+  return odometry_from_newest * motion_over(seconds_between(newest_ns, stamp_ns));
 }
 
 /// Depthless features give epipolar rows (3.6) as soon as there is motion to speak of; at rest they are directions, as

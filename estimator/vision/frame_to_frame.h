@@ -52,6 +52,10 @@ class FrameToFrame {
   Step process(const CameraFrame& frame);
   Step process(const PointFrame& frame);
 
+  /// No image shows the motion: it goes on to stamp_ns as it went, and from there at a velocity that something else has
+  /// found, [rad/s; m/s] in B.
+  void go_on(std::int64_t stamp_ns, const Vector6d& velocity);
+
   /// De-skewed lidar points, for the images to come. @param odometry_from_body  at their time
   void add_depth_points(std::int64_t stamp_ns, const std::vector<Eigen::Vector3f>& points_in_body,
                         const Pose& odometry_from_body);
@@ -61,9 +65,10 @@ class FrameToFrame {
   void add_stereo(const CameraFrame& right);
   void add_stereo(const PointFrame& right);
 
+  /// By an image, or by going on without one.
   bool started() const;
   std::int64_t newest_ns() const;
-  /// At the newest image: all steps composed, the first image's body frame being the origin.
+  /// At the newest image or where it went on to: all steps composed, the body frame at the start being the origin.
   const Pose& odometry_from_body() const;
   /// The same at a later time, at constant velocity.
   Pose predicted(std::int64_t stamp_ns) const;

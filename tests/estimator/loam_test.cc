@@ -29,9 +29,9 @@ Calibration calibration_of(int rings, double sweep_rate_hz) {
 /// An estimator without an IMU, its clock, and what it put out.
 class LoamRun {
  public:
-  explicit LoamRun(const Calibration& calibration, EstimatorConfig config = {}) {
+  explicit LoamRun(const Calibration& calibration, EstimatorConfig config = {}, const std::string& name = "loam") {
     config.imu_enabled = false;
-    estimator_ = make_estimator("loam", calibration, config);
+    estimator_ = make_estimator(name, calibration, config);
   }
 
   void add(const LidarScan& scan) {
@@ -121,6 +121,37 @@ TEST(Loam, DoesNotRingFromSweepToSweep) {
   for (std::int64_t k = 5; k < 20; ++k) {
     const Vector6d error = run.error(motion, k * 100'000'000 + kClock_ns, (k + 1) * 100'000'000 + kClock_ns);
     EXPECT_LT(error.tail<3>().norm(), 0.04) << k;
+  }
+}
+
+/// The other estimators without an IMU. One that took the distortion within a sweep for known rang from sweep to sweep,
+/// already at rest, until it was thrown out.
+TEST(WithoutAnImu, TheLidarAloneIsFollowed) {
+  const testing::BoxWorld hall = testing::pillared_hall(40.0);
+  const Motion motion = [](double t) {
+    return Pose{exp_so3({0.0, 0.02 * std::sin(3.0 * t), 0.0}), {0.75 * t * t, 0.0, 0.5}};
+  };
+  Calibration blind = calibration_of(16, 10.0);
+  Calibration seeing = blind;  // and no image ever comes
+  seeing.has_camera = true;
+  seeing.camera = {64, 36, 47.0, 47.0, 31.5, 17.5};
+  for (const auto& [name, calibration] : {std::pair{"imu_lidar", blind}, {"vloam", blind}, {"vloam", seeing}}) {
+    RandomStream noise(3, "lidar");
+    LoamRun run(calibration, {}, name);
+    for (std::int64_t k = 0; k < 40; ++k) run.add(testing::vlp16_scan(hall, motion, k * 100'000'000, {}, 0.012, noise));
+    run.wait_until(4'010'000'000);
+    // Twelve metres from rest on. Where images are still waited for, the end is predicted over up to 0.2 s.
+    const Vector6d error = run.error(motion, 110'000'000, 3'710'000'000);
+    EXPECT_LT(error.tail<3>().norm(), 0.08) << name << ", camera " << calibration.has_camera;
+    EXPECT_LT(error.head<3>().norm(), 0.01) << name << ", camera " << calibration.has_camera;
+  }
+}
+
+TEST(WithoutAnImu, WhatNeedsOneIsRefused) {
+  EstimatorConfig config;
+  config.imu_enabled = false;
+  for (const char* name : {"joint", "imu"}) {
+    EXPECT_THROW(make_estimator(name, calibration_of(16, 10.0), config), std::invalid_argument) << name;
   }
 }
 
