@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "estimator/geometry/so3.h"
 #include "estimator/imu/squared.h"
@@ -17,6 +18,7 @@ constexpr double kManoeuvreStray = 0.25;  // [m/s]
 constexpr double kManoeuvreAngle = 0.05;  // [rad]
 constexpr double kMaxRestRate = 0.1;      // [rad/s], above any turn-on bias at rest
 constexpr double kMaxGravityError = 0.5;  // [m/s^2], of the mean force's length
+constexpr double kStillWindow_s = 0.2;    // wheels and rotors shake a body more often than that
 constexpr double kRestVelocity = 0.01;    // [m/s]
 constexpr double kSteadyTilt = 0.03;      // [rad], a vehicle that gently gains or loses speed
 constexpr double kManoeuvreTilt = 0.1;    // [rad], while walking the mean force is off the vertical by about this
@@ -30,8 +32,7 @@ constexpr double kSampleMargin = 2.0;     // of a single sample: rounding to the
 
 /// Range of the walk that the deviations from the mean integrate to, the longest axis.
 template <typename Reading>
-double range_of_walk(const std::vector<ImuSample>& samples, const Eigen::Vector3d& mean, double period,
-                     Reading reading) {
+double range_of_walk(std::span<const ImuSample> samples, const Eigen::Vector3d& mean, double period, Reading reading) {
   Eigen::Vector3d walk = Eigen::Vector3d::Zero(), low = walk, high = walk;
   for (const ImuSample& sample : samples) {
     walk += period * (reading(sample) - mean);
@@ -39,6 +40,18 @@ double range_of_walk(const std::vector<ImuSample>& samples, const Eigen::Vector3
     high = high.cwiseMax(walk);
   }
   return (high - low).maxCoeff();
+}
+
+Eigen::Vector3d rate_of(const ImuSample& sample) { return sample.angular_rate; }
+Eigen::Vector3d force_of(const ImuSample& sample) { return sample.specific_force; }
+
+/// Whether readings do not stray from their own mean farther than their noise walks.
+template <typename Reading>
+bool still(std::span<const ImuSample> samples, double density, double period, Reading reading) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const ImuSample& sample : samples) mean += reading(sample) / static_cast<double>(samples.size());
+  const double seconds = period * static_cast<double>(samples.size());
+  return range_of_walk(samples, mean, period, reading) < kStillStray * density * std::sqrt(seconds);
 }
 
 /// Level, with no heading, where `up` is in B.
@@ -78,7 +91,7 @@ InitialState Initializer::calm_start(const Excursion& strayed) const {
   InitialState start;
   start.state.stamp_ns = samples_.back().stamp_ns;
   const double elapsed = start.watched_s = static_cast<double>(samples_.size()) / rate_hz_;
-  const bool at_rest = strayed.velocity < kRestStray;
+  const bool at_rest = strayed.velocity < kRestStray || has_been_still();
   find_gyro_bias(strayed, at_rest, start);
   // Only the length of the mean force is known to be gravity's; its direction is shared with the attitude.
   if (mean_force_.norm() > kLeastForce)
@@ -118,8 +131,21 @@ void Initializer::find_gyro_bias(const Excursion& strayed, bool at_rest, Initial
 
 Initializer::Excursion Initializer::excursion() const {
   const double period = 1.0 / rate_hz_;
-  return {range_of_walk(samples_, mean_rate_, period, [](const ImuSample& s) { return s.angular_rate; }),
-          range_of_walk(samples_, mean_force_, period, [](const ImuSample& s) { return s.specific_force; })};
+  return {range_of_walk(samples_, mean_rate_, period, rate_of), range_of_walk(samples_, mean_force_, period, force_of)};
+}
+
+bool Initializer::has_been_still() const {
+  const double period = 1.0 / rate_hz_;
+  const auto length = static_cast<std::size_t>(std::lround(kStillWindow_s * rate_hz_));
+  const std::span<const ImuSample> all(samples_);
+  for (std::size_t first = 0; length > 1 && first + length <= all.size(); first += length) {
+    const auto stretch = all.subspan(first, length);
+    if (still(stretch, noise_.gyro_density, period, rate_of) &&
+        still(stretch, noise_.accel_density, period, force_of)) {
+      return true;
+    }
+  }
+  return false;
 }
 
 bool Initializer::manoeuvring(const Excursion& excursion) const {
@@ -137,9 +163,7 @@ Matrix6d Initializer::increment_covariance() const {
   return variance.asDiagonal();
 }
 
-Pose Initializer::attitude() const {
-  return samples_.empty() ? Pose{} : calm_start(excursion()).state.world_from_body;
-}
+Pose Initializer::attitude() const { return samples_.empty() ? Pose{} : calm_start(excursion()).state.world_from_body; }
 
 /// A hand turns by degrees within a second: forces are averaged in the newest B, and the heading has changed since the
 /// first sample.

@@ -20,8 +20,10 @@ struct InitialState {
 /// Watches the first samples, and judges by how far the readings, integrated, stray from their mean's line:
 /// - at rest, but for what a hand or an idle engine does: a second is averaged, and the straying says how much of the
 ///   mean may be motion;
-/// - steady, as a vehicle at constant speed is, or a knocked one at rest: the same, but the velocity is unknown, and a
-///   mean rate about the vertical beyond such units' biases is a turn;
+/// - steady, as a vehicle at constant speed is: the same, but the velocity is unknown, and a mean rate about the
+/// vertical
+///   beyond such units' biases is a turn. A body at rest that is knocked strays as far; it has been still as no vehicle
+///   under way is, to the noise of the readings, before or after;
 /// - manoeuvring: it starts at once, with the data sheet's turn-on figures.
 class Initializer {
  public:
@@ -43,6 +45,7 @@ class Initializer {
     double velocity = 0.0;  ///< [m/s]
   };
   Excursion excursion() const;
+  bool has_been_still() const;
   bool manoeuvring(const Excursion& excursion) const;
   InitialState calm_start(const Excursion& strayed) const;
   void find_gyro_bias(const Excursion& strayed, bool at_rest, InitialState& start) const;

@@ -139,6 +139,21 @@ TEST(Initializer, VibrationAtRestIsNoMotion) {
   EXPECT_LT(start.velocity_sigma, 0.1);
 }
 
+/// As when rotors are turned by hand before a flight: it rocks as far as a car does on the road, but was still before.
+TEST(Initializer, KnockedAtRestIsNotUnderWay) {
+  const auto knocked = [](double t) {
+    Reading reading;
+    const double swing = t < 0.25 ? 0.0 : std::exp(-2.0 * (t - 0.25)) * std::sin(kTwoPi * 10.0 * (t - 0.25));
+    reading.force.y() += 3.0 * swing;
+    reading.rate.x() = 0.15 * swing;
+    return reading;
+  };
+  const InitialState start = start_on(knocked);
+  expect_bias_within_its_sigmas(start, kBias);
+  EXPECT_LT(start.velocity_sigma, 0.2);
+  EXPECT_LT(start.tilt_sigma, 0.02);
+}
+
 /// A car on the road at constant speed shakes at the frequencies of its suspension; nothing tells its speed.
 TEST(Initializer, OnTheRoadTheVelocityIsUnknown) {
   const auto road = [](double t) {
