@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "estimator/lidar/scan_matcher.h"
 #include "tools/evaluation/quantile.h"
 
 namespace plumbline {
@@ -61,6 +62,15 @@ void find_thresholds(const std::vector<Scored>& ascending, DetectorScore& result
   if (best >= 0.0) result.choice = choice;
 }
 
+RocPoint at_threshold(double threshold, const std::vector<Scored>& scored, const DetectorScore& result) {
+  double hits = 0.0;
+  double false_alarms = 0.0;
+  for (const Scored& scan : scored) {
+    if (scan.score < threshold) (scan.degenerate ? hits : false_alarms) += 1.0;
+  }
+  return {threshold, false_alarms / static_cast<double>(result.well), hits / static_cast<double>(result.degenerate)};
+}
+
 /// How many scans of each stretch of degeneracy that begins within a run go by unreported.
 void measure_latency(std::size_t detector, const std::vector<std::vector<LabRow>>& runs, DetectorScore& result) {
   if (!result.choice) return;
@@ -104,6 +114,9 @@ DetectorScore score_detector(std::size_t detector, const std::vector<std::vector
   if (result.degenerate > 0 && result.well > 0) {
     result.area = area_under(scored, static_cast<double>(result.degenerate), static_cast<double>(result.well));
     find_thresholds(scored, result);
+    if (kDetectors[detector] == Detector::kD) {
+      result.in_use = at_threshold(ScanMatcherConfig{}.degeneracy_threshold, scored, result);
+    }
   }
   result.angle_deg = quantile(angles, 0.5);
   measure_latency(detector, runs, result);

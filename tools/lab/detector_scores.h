@@ -31,6 +31,7 @@ struct DetectorScore {
   std::optional<double> area;             ///< under the ROC curve; nothing without scans of both kinds
   std::vector<RocPoint> roc;              ///< by falling threshold
   std::optional<ThresholdChoice> choice;  ///< nothing without scans of both kinds
+  std::optional<RocPoint> in_use;         ///< of D only: at the threshold by which scan matching remaps
   std::optional<double> angle_deg;        ///< median over degenerate scans
   std::optional<double> latency_scans;    ///< median over onsets of degeneracy until it is reported, at that threshold
   std::size_t onsets = 0;

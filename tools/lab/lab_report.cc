@@ -42,7 +42,15 @@ Drawing roc_chart(const std::vector<DetectorScore>& scores) {
   }
   std::stable_sort(best.begin(), best.end(),
                    [](const DetectorScore* a, const DetectorScore* b) { return *a->area > *b->area; });
-  if (best.size() > kMostCurves) best.resize(kMostCurves);
+  if (best.size() > kMostCurves) {
+    // The estimator's own is shown in any case.
+    const auto own =
+        std::find_if(best.begin(), best.end(), [](const DetectorScore* s) { return s->in_use.has_value(); });
+    if (own != best.end() && own - best.begin() >= static_cast<std::ptrdiff_t>(kMostCurves)) {
+      best[kMostCurves - 1] = *own;
+    }
+    best.resize(kMostCurves);
+  }
   for (std::size_t i = 0; i < best.size(); ++i) {
     PointChart::Series series{best[i]->name, "c" + std::to_string(i), {{0.0, {0.0, 0.0, 0.0}}}};
     for (const RocPoint& point : best[i]->roc) {
@@ -178,6 +186,12 @@ std::string lab_section(const LabFindings& findings, std::vector<Drawing>& chart
       " in the grey zone, which are left out. The threshold separates best; the margin is "
       "the factor by which scores may be off before it does not. The angle is the largest between the true and the "
       "found directions, rotations scaled by the mean range, median over degenerate scans.";
+  for (const DetectorScore& score : findings.detectors) {
+    if (!score.in_use) continue;
+    note += " Scan matching remaps below " + readable_text(score.in_use->threshold) + " of " + score.name +
+            ": there it finds " + readable_text(100.0 * score.in_use->hits) + " % of the degenerate scans, with " +
+            readable_text(100.0 * score.in_use->false_alarms) + " % false alarms.";
+  }
   if (findings.registration.over_selected) {
     note += " Registered on the true surfaces, the matched points err " +
             readable_text(*findings.registration.over_selected) + " times their Cramér–Rao bound, which is " +

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "estimator/lidar/scan_matcher.h"
 #include "tests/scenarios/temporary_directory.h"
 
 namespace plumbline {
@@ -47,6 +48,17 @@ TEST(DetectorScore, CountsTheShareOfPairsInTheRightOrder) {
   EXPECT_DOUBLE_EQ(*score.area, 0.75);
   const DetectorScore tied = score_detector(0, {{scan(kBad, 1.0), scan(kWell, 1.0)}});
   EXPECT_DOUBLE_EQ(*tied.area, 0.5);
+}
+
+TEST(DetectorScore, TellsWhatTheThresholdInUseDoes) {
+  const double in_use = ScanMatcherConfig{}.degeneracy_threshold;
+  const std::vector<std::vector<LabRow>> runs{
+      {scan(kBad, 0.1 * in_use), scan(kBad, 2.0 * in_use), scan(kWell, 0.5 * in_use), scan(kWell, 3.0 * in_use)}};
+  const DetectorScore d = score_detector(0, runs);
+  ASSERT_TRUE(d.in_use);
+  EXPECT_DOUBLE_EQ(d.in_use->hits, 0.5);
+  EXPECT_DOUBLE_EQ(d.in_use->false_alarms, 0.5);
+  EXPECT_FALSE(score_detector(1, runs).in_use) << "the estimator goes by D alone";
 }
 
 TEST(DetectorScore, MeasuresHowLongAnOnsetGoesUnreported) {
