@@ -29,6 +29,10 @@ constexpr double kSearchAgain_rad = 0.003;
 // all returns share, a quarter for one of each ring.
 constexpr double kBiasShare = 0.5;
 
+// What biases of single rings bend, they go on bending the same way while the scene keeps its kind: over 200 m of
+// tunnel or of flight above a field.
+constexpr double kAlikeRenewals = 10.0;
+
 constexpr double kClutterResolution_m = 0.1;  // as dense as the scan gives it
 
 struct PlaneMatch {
@@ -145,6 +149,7 @@ class MapConstraints {
     if (n == 0 || static_cast<int>(solved.weights.size()) < rows.feature_count()) return {};
     using Gain = Eigen::Matrix<double, 6, 3>;
     std::map<int, Gain> gain_of_ring;
+    std::map<int, Vector6d> pull_of_ring;
     double square_sum = 0.0;
     for (int f = 0; f < rows.feature_count(); ++f) {
       const auto [point, ring] = feature(static_cast<std::size_t>(f));
@@ -152,11 +157,13 @@ class MapConstraints {
       const Eigen::Vector3d beam = (point - lidar_in_body) / range;
       square_sum += range * range;
       Gain& gain = gain_of_ring.try_emplace(ring, Gain::Zero()).first->second;
+      Vector6d& pull = pull_of_ring.try_emplace(ring, Vector6d::Zero()).first->second;
       const Eigen::Matrix3d beam_turns = (Eigen::Matrix3d::Identity() - beam * beam.transpose()) / range;
       const double weight = solved.weights[static_cast<std::size_t>(f)];
       // A row's derivative by the position is its derivative by the feature's.
       for (int r = rows.first_row(f); r < rows.end_row(f); ++r) {
         gain += weight * rows.jacobian(r) * (rows.jacobian(r).tail<3>().transpose() * beam_turns);
+        pull += weight * rows.jacobian(r) * rows.jacobian(r).tail<3>().dot(beam);
       }
     }
     const Eigen::MatrixXd basis = solved.spectrum.eigenvectors.rightCols(n);
@@ -171,6 +178,9 @@ class MapConstraints {
       of_all += drift.per_metre.back();
     }
     drift.per_metre.push_back(of_all);
+    for (const auto& [ring, pull] : pull_of_ring) {
+      drift.per_renewal.push_back(bias_sigma_m * pose_of_gradient * pull);
+    }
     return drift;
   }
 
@@ -280,7 +290,11 @@ const MatchDrift& ScanMatcher::drift() const { return impl_->drift; }
 Matrix6d MatchDrift::covariance(const Eigen::Vector3d& step_in_body) const {
   const double step_m = step_in_body.norm();
   Matrix6d sum = Matrix6d::Zero();
-  if (step_m <= 0.0) return sum;
+  if (step_m <= 0.0 || reach_m <= 0.0) return sum;
+  for (const Vector6d& renewal : per_renewal) {
+    const Vector6d drift = step_m / reach_m * renewal;
+    sum += std::max(1.0, kAlikeRenewals * reach_m / step_m) * drift * drift.transpose();
+  }
   for (const Eigen::Matrix<double, 6, 3>& d : per_metre) {
     const Vector6d drift = d * step_in_body;
     sum += std::max(1.0, reach_m / step_m) * drift * drift.transpose();

@@ -40,6 +40,9 @@ struct ScanMatcherConfig {
 struct MatchDrift {
   /// Of the pose (right perturbation) per metre of the sensor's motion in B, for one bias at one sigma each.
   std::vector<Eigen::Matrix<double, 6, 3>> per_metre;
+  /// Of the pose, for the bias of each ring: a ring's returns lie on what other rings have laid down, so that each time
+  /// all is renewed, new content bends away from the old by as much.
+  std::vector<Vector6d> per_renewal;
   double reach_m = 0.0;  ///< root mean square distance of the matched features: moving so far renews them
 
   /// Covariance of the drift over a step [m]: it goes on alike until the features are renewed.

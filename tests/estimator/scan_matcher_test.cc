@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "estimator/geometry/so3.h"
 #include "estimator/lidar/deskew.h"
 #include "tests/support/box_world.h"
 
@@ -105,6 +106,54 @@ TEST(ScanMatcher, InATunnelOnlyTheAxisKeepsTheGuess) {
   EXPECT_LT(in_world.tail<2>().norm(), 0.01);
   EXPECT_LT(error.head<3>().norm(), 0.1 * kDegree);
   EXPECT_GT(result.spectrum.eigenvalues[1], 50.0 * result.spectrum.eigenvalues[0]);
+}
+
+/// In flight above a plain, the lidar looking down at 45 degrees: what the front rings lay down, the rear ones lie on,
+/// and where their ranges are biased the map bends with every renewal. A filter that is to trust gravity more than such
+/// a map has to be told by how much it may bend.
+TEST(ScanMatcher, SaysHowFarBiasesOfItsRingsMayBendTheMap) {
+  constexpr int kScans = 60;
+  constexpr double kStep_m = 1.5;
+  BoxWorld plain;
+  plain.boxes.push_back({{-300.0, -300.0, -2.0}, {600.0, 300.0, -1.0}, false});
+  Calibration c = calibration();
+  c.body_from_lidar = {rotation_from_rpy({0.0, 45.0 * kDegree, 0.0}), {0.0, 0.0, 0.0}};
+  double sum_of_squares = 0.0;  // in sigmas
+  double sum_of_squared_pitch = 0.0;
+  constexpr int kSeeds = 4;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    RandomStream noise(seed, "lidar");
+    std::vector<float> bias(16);
+    for (float& b : bias) b = static_cast<float>(kRangeSigma * noise.gaussian());
+    ScanMatcher matcher(c, {}, true);
+    Pose estimate{Eigen::Quaterniond::Identity(), {0.0, 0.0, 19.0}};
+    double variance = 0.0;
+    for (int k = 0; k < kScans; ++k) {
+      const Pose truth{Eigen::Quaterniond::Identity(), {kStep_m * k, 0.0, 19.0}};
+      LidarScan scan = testing::vlp16_scan(
+          plain, [&](double) { return truth; }, 0, c.body_from_lidar, kRangeSigma, noise);
+      for (LidarPoint& point : scan.points) {
+        point.position += bias[static_cast<std::size_t>(point.ring)] * point.position.normalized();
+      }
+      PoseTrack rest;
+      rest.push(0, {});
+      const FeatureCloud features = extract_features(scan, deskew(scan, rest, c.body_from_lidar, 0), c);
+      if (k > 0) {
+        estimate.translation.x() += kStep_m;
+        estimate = matcher.match(features, loose(estimate)).pose;
+        // What the plain does not show is taken from the truth: it is not this test's matter.
+        estimate.translation.head<2>() = truth.translation.head<2>();
+        variance += matcher.drift().covariance({kStep_m, 0.0, 0.0})(1, 1);
+      }
+      matcher.insert(features, estimate, kStep_m * k);
+    }
+    const double pitch = log_so3(estimate.rotation).y();
+    sum_of_squares += pitch * pitch / variance;
+    sum_of_squared_pitch += pitch * pitch;
+  }
+  // In sigmas, root mean square: 1.2. Without what each ring does to a renewal it was 5.8.
+  EXPECT_LT(std::sqrt(sum_of_squares / kSeeds), 3.0);
+  EXPECT_GT(std::sqrt(sum_of_squared_pitch / kSeeds), 1e-4) << "or nothing has bent";
 }
 
 /// Trunks that are passed show ever other sides. Each match may err by its noise, but not all of them to one side: what
