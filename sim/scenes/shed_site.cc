@@ -222,7 +222,8 @@ void add_routes(Outdoors& outdoors, const Terrain& ground) {
                                         {60.0, kTreeLine_m, kLow_m}},
                                        false)));
   routes.push_back(route_through(
-      "drive", ground, {{-10.0, 34.0, 0.0}, {707.5, 34.0, 0.0}, {707.5, 20.0, 0.0}, {-10.0, 20.0, 0.0}}, true));
+      "drive", ground,
+      with_round_corners({{-10.0, 34.0, 0.0}, {711.8, 34.0, 0.0}, {711.8, 20.0, 0.0}, {-10.0, 20.0, 0.0}}), true));
 }
 
 SceneDescription build_shed_site(const SceneValues& values, std::uint64_t world_seed) {
