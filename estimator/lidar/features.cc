@@ -125,7 +125,7 @@ class Extraction {
         const auto pole = pole_of_run(table_, r, i, table_.run_end(i), range_sigma_);
         if (!pole) continue;
         edges.push_back({pole->axis_point, table_.intensity(pole->index), Eigen::Vector3f::Zero(), pole->spread_m,
-                         seconds(pole->index), r});
+                         seconds(pole->index), laser(r)});
       }
     }
   }
@@ -139,7 +139,7 @@ class Extraction {
         if (!is_planar(i)) continue;
         const Eigen::Vector3f normal = normal_at(i, above, below);
         if (normal.isZero()) continue;
-        cells.add({table_.position(i), table_.intensity(i), normal, 0.0F, seconds(i), r});
+        cells.add({table_.position(i), table_.intensity(i), normal, 0.0F, seconds(i), laser(r)});
       }
     }
     for (FeaturePoint& mean : cells.means) mean.normal.normalize();
@@ -154,7 +154,7 @@ class Extraction {
         const Eigen::Vector3f along_ring = table_.beam(table_.run_end(i)) - table_.beam(table_.run_begin(i) - 1);
         const Eigen::Vector3f across = table_.beam(i).cross(along_ring);
         if (across.isZero()) continue;
-        cells.add({table_.position(i), table_.intensity(i), across.normalized(), 0.0F, seconds(i), r});
+        cells.add({table_.position(i), table_.intensity(i), across.normalized(), 0.0F, seconds(i), laser(r)});
       }
     }
     for (FeaturePoint& mean : cells.means) mean.normal.normalize();
@@ -162,6 +162,8 @@ class Extraction {
   }
 
  private:
+  int laser(int ring) const { return table_.lines_in_turn() ? 0 : ring; }
+
   /// Walks other rings on one side in step with the one being read, and finds the return beside each of its own.
   class Across {
    public:
@@ -298,7 +300,7 @@ class Extraction {
       if (!position) continue;
       // The edge lies anywhere between two beams: uniform, so a spacing over sqrt(12).
       edges.push_back({*position, table_.intensity(c.index), Eigen::Vector3f::Zero(),
-                       0.289F * (c.step ? c.step->norm() : 0.0F), seconds(c.index), ring});
+                       0.289F * (c.step ? c.step->norm() : 0.0F), seconds(c.index), laser(ring)});
       const int first = std::max(table_.run_begin(c.index), c.index - c.half_window);
       const int last = std::min(table_.run_end(c.index) - 1, c.index + c.half_window);
       for (int i = first; i <= last; ++i) taken[static_cast<std::size_t>(i)] = true;

@@ -17,7 +17,7 @@ struct FeaturePoint {
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
   float spread_m = 0.0F;  ///< edges: standard deviation across the edge that the spacing of the beams adds
   float offset_s = 0.0F;  ///< since the scan's stamp: when it was measured, of a plane's cell the mean
-  int ring = 0;           ///< of its first return
+  int laser = 0;          ///< of its first return; the lines of a scanner turned by a motor are of one laser
 };
 
 /// What matching uses of one scan (thesis 5.12 and the selection rules of ch. 4).

@@ -26,8 +26,9 @@ constexpr double kSearchAgain_m = 0.02;
 constexpr double kSearchAgain_rad = 0.003;
 
 // A data sheet's accuracy does not say how much of it averages out. A quarter of its variance is taken for a bias that
-// all returns share, a quarter for one of each ring.
+// all returns share, a quarter for one of each ring; a match solves for a ring's whole bias.
 constexpr double kBiasShare = 0.5;
+const double kWholeBias = std::sqrt(2.0);
 
 // What biases of single rings bend, they go on bending the same way while the scene keeps its kind: over 200 m of
 // tunnel or of flight above a field.
@@ -37,15 +38,17 @@ constexpr double kClutterResolution_m = 0.1;  // as dense as the scan gives it
 
 struct PlaneMatch {
   Eigen::Vector3d point_in_body;
+  Eigen::Vector3d beam;  ///< unit, in B
   MapPlane plane;
-  int ring;
+  int laser;
 };
 
 struct LineMatch {
   Eigen::Vector3d point_in_body;
+  Eigen::Vector3d beam;
   MapLine line;
   double sigma_m;
-  int ring;
+  int laser;
 };
 
 double reach_of(const FeaturePoint& feature) {
@@ -103,13 +106,16 @@ namespace {
 class MapConstraints {
  public:
   MapConstraints(const VoxelMap& edges, const VoxelMap& planes, const VoxelMap& clutter, const FitLimits& edge_limits,
-                 const FitLimits& plane_limits, double sigma_m, const FeatureCloud& features)
+                 const FitLimits& plane_limits, double sigma_m, double bias_sigma_m,
+                 const Eigen::Vector3d& lidar_in_body, const FeatureCloud& features)
       : edges_(edges),
         planes_(planes),
         clutter_(clutter),
         edge_limits_(edge_limits),
         plane_limits_(plane_limits),
         sigma_m_(sigma_m),
+        bias_sigma_m_(bias_sigma_m),
+        lidar_in_body_(lidar_in_body),
         features_(features) {
     plane_matches_.reserve(features.planes.size());
     line_matches_.reserve(features.edges.size() + features.clutter.size());
@@ -117,8 +123,14 @@ class MapConstraints {
 
   void linearize(const Pose& world_from_body, ResidualRows& rows) {
     if (!searched_ || moved_far(world_from_body)) search(world_from_body);
-    for (const PlaneMatch& m : plane_matches_) add_plane_row(m.point_in_body, m.plane, world_from_body, sigma_m_, rows);
-    for (const LineMatch& m : line_matches_) add_line_rows(m.point_in_body, m.line, world_from_body, m.sigma_m, rows);
+    for (const PlaneMatch& m : plane_matches_) {
+      add_plane_row(m.point_in_body, m.plane, world_from_body, sigma_m_, rows);
+      rows.share(m.laser, kWholeBias * bias_sigma_m_ * m.beam);
+    }
+    for (const LineMatch& m : line_matches_) {
+      add_line_rows(m.point_in_body, m.line, world_from_body, m.sigma_m, rows);
+      rows.share(m.laser, kWholeBias * bias_sigma_m_ * m.beam);
+    }
   }
 
   /// The rows that linearize() stacked last, not yet weighted: one per plane, then two per line.
@@ -141,29 +153,35 @@ class MapConstraints {
   std::size_t plane_count() const { return plane_matches_.size(); }
 
   /// To first order: J^T of the rows times their change per metre of motion and bias, summed over each ring, since all
-  /// of a ring err alike, and over all.
-  MatchDrift drift(const SolveResult& solved, const Eigen::Vector3d& lidar_in_body, double bias_sigma_m) {
+  /// of a ring err alike, and over all; less what the solution takes for the ring's bias.
+  MatchDrift drift(const SolveResult& solved) {
     ResidualRows rows;
     linearize(solved.pose, rows);
     const int n = solved.spectrum.well_conditioned;
     if (n == 0 || static_cast<int>(solved.weights.size()) < rows.feature_count()) return {};
     using Gain = Eigen::Matrix<double, 6, 3>;
-    std::map<int, Gain> gain_of_ring;
-    std::map<int, Vector6d> pull_of_ring;
+    struct Ring {
+      Gain gain = Gain::Zero();                                 ///< J^T of the rows times their change as beams turn
+      Eigen::RowVector3d turning = Eigen::RowVector3d::Zero();  ///< the same of the bias
+      Vector6d pull = Vector6d::Zero();                         ///< J^T of the rows times their change by the bias
+      double information = 0.0;                                 ///< on the bias
+    };
+    std::map<int, Ring> rings;
     double square_sum = 0.0;
     for (int f = 0; f < rows.feature_count(); ++f) {
-      const auto [point, ring] = feature(static_cast<std::size_t>(f));
-      const double range = std::max((point - lidar_in_body).norm(), kLeastRange_m);
-      const Eigen::Vector3d beam = (point - lidar_in_body) / range;
+      const auto [point, beam] = feature(static_cast<std::size_t>(f));
+      const double range = std::max((point - lidar_in_body_).norm(), kLeastRange_m);
       square_sum += range * range;
-      Gain& gain = gain_of_ring.try_emplace(ring, Gain::Zero()).first->second;
-      Vector6d& pull = pull_of_ring.try_emplace(ring, Vector6d::Zero()).first->second;
+      Ring& ring = rings[rows.group(f)];
       const Eigen::Matrix3d beam_turns = (Eigen::Matrix3d::Identity() - beam * beam.transpose()) / range;
       const double weight = solved.weights[static_cast<std::size_t>(f)];
       // A row's derivative by the position is its derivative by the feature's.
       for (int r = rows.first_row(f); r < rows.end_row(f); ++r) {
-        gain += weight * rows.jacobian(r) * (rows.jacobian(r).tail<3>().transpose() * beam_turns);
-        pull += weight * rows.jacobian(r) * rows.jacobian(r).tail<3>().dot(beam);
+        const Eigen::RowVector3d turning = bias_sigma_m_ * rows.jacobian(r).tail<3>().transpose() * beam_turns;
+        ring.gain += weight * rows.jacobian(r) * turning;
+        ring.turning += weight * rows.d_shared(r) * turning;
+        ring.pull += weight * rows.d_shared(r) * rows.jacobian(r);
+        ring.information += weight * rows.d_shared(r) * rows.d_shared(r);
       }
     }
     const Eigen::MatrixXd basis = solved.spectrum.eigenvectors.rightCols(n);
@@ -173,23 +191,26 @@ class MapConstraints {
     MatchDrift drift;
     drift.reach_m = std::sqrt(square_sum / rows.feature_count());
     Gain of_all = Gain::Zero();
-    for (const auto& [ring, gain] : gain_of_ring) {
-      drift.per_metre.push_back(bias_sigma_m * pose_of_gradient * gain);
+    for (const auto& [group, ring] : rings) {
+      const double unsolved = 1.0 / (ring.information + 1.0);
+      drift.per_metre.push_back(pose_of_gradient * (ring.gain - unsolved * ring.pull * ring.turning));
+      drift.per_renewal.push_back(unsolved * pose_of_gradient * ring.pull);
       of_all += drift.per_metre.back();
     }
     drift.per_metre.push_back(of_all);
-    for (const auto& [ring, pull] : pull_of_ring) {
-      drift.per_renewal.push_back(bias_sigma_m * pose_of_gradient * pull);
-    }
     return drift;
   }
 
  private:
-  /// In the order of the rows.
-  std::pair<Eigen::Vector3d, int> feature(std::size_t at) const {
-    if (at < plane_matches_.size()) return {plane_matches_[at].point_in_body, plane_matches_[at].ring};
+  /// Point and beam, in the order of the rows.
+  std::pair<Eigen::Vector3d, Eigen::Vector3d> feature(std::size_t at) const {
+    if (at < plane_matches_.size()) return {plane_matches_[at].point_in_body, plane_matches_[at].beam};
     const LineMatch& line = line_matches_[at - plane_matches_.size()];
-    return {line.point_in_body, line.ring};
+    return {line.point_in_body, line.beam};
+  }
+
+  Eigen::Vector3d beam_to(const Eigen::Vector3d& point_in_body) const {
+    return (point_in_body - lidar_in_body_).normalized();
   }
 
   bool moved_far(const Pose& pose) const {
@@ -212,7 +233,8 @@ class MapConstraints {
     const Eigen::Vector3d normal = world_from_body.rotation * feature.normal.cast<double>();
     NearestSamples nearest(kPlaneNeighbours, reach_of(feature), normal.cast<float>());
     planes_.nearest(world_from_body * point, reach_of(feature), nearest);
-    if (const auto plane = fit_plane(nearest, plane_limits_)) plane_matches_.push_back({point, *plane, feature.ring});
+    if (const auto plane = fit_plane(nearest, plane_limits_))
+      plane_matches_.push_back({point, beam_to(point), *plane, feature.laser});
   }
 
   void match_line(const FeaturePoint& feature, const Pose& world_from_body) {
@@ -222,7 +244,7 @@ class MapConstraints {
     const auto line = fit_line(nearest, edge_limits_);
     if (!line) return;
     const double sigma_m = std::hypot(sigma_m_, static_cast<double>(feature.spread_m));
-    line_matches_.push_back({point, *line, sigma_m, feature.ring});
+    line_matches_.push_back({point, beam_to(point), *line, sigma_m, feature.laser});
   }
 
   void match_clutter(const FeaturePoint& feature, const Pose& world_from_body) {
@@ -230,7 +252,7 @@ class MapConstraints {
     NearestSamples nearest(kClutterNeighbours, kClutterReach_m, Eigen::Vector3f::Zero());
     clutter_.nearest(world_from_body * point, kClutterReach_m, nearest);
     const auto line = line_through_clutter(nearest, world_from_body.rotation * feature.normal.cast<double>());
-    if (line) line_matches_.push_back({point, *line, kClutterSigma_m, feature.ring});
+    if (line) line_matches_.push_back({point, beam_to(point), *line, kClutterSigma_m, feature.laser});
   }
 
   const VoxelMap& edges_;
@@ -239,6 +261,8 @@ class MapConstraints {
   const FitLimits& edge_limits_;
   const FitLimits& plane_limits_;
   double sigma_m_;
+  double bias_sigma_m_;
+  Eigen::Vector3d lidar_in_body_;
   const FeatureCloud& features_;
   bool searched_ = false;
   Pose searched_at_;
@@ -263,7 +287,8 @@ SolveResult ScanMatcher::match(const FeatureCloud& features, const PosePrior& wo
   m.edges.prepare(in_world(used.edges, world_from_body.mean));
   m.planes.prepare(in_world(used.planes, world_from_body.mean));
   m.clutter.prepare(in_world(used.clutter, world_from_body.mean));
-  MapConstraints constraints(m.edges, m.planes, m.clutter, m.edge_limits, m.plane_limits, m.sigma_m, used);
+  MapConstraints constraints(m.edges, m.planes, m.clutter, m.edge_limits, m.plane_limits, m.sigma_m, m.bias_sigma_m,
+                             m.body_from_lidar.translation, used);
   m.rows.clear();
   std::size_t planes = 0;
   const SolveResult solved = solve(
@@ -281,7 +306,7 @@ SolveResult ScanMatcher::match(const FeatureCloud& features, const PosePrior& wo
     const std::size_t feature = i < planes ? i : planes + (i - planes) / 2;
     m.rows[i].weight = feature < solved.weights_at_guess.size() ? solved.weights_at_guess[feature] : 0.0;
   }
-  m.drift = constraints.drift(solved, m.body_from_lidar.translation, m.bias_sigma_m);
+  m.drift = constraints.drift(solved);
   return solved;
 }
 

@@ -11,29 +11,45 @@ namespace plumbline {
 void ResidualRows::clear() {
   residuals_.clear();
   jacobians_.clear();
+  d_shared_.clear();
   first_row_.clear();
+  group_.clear();
 }
 
 void ResidualRows::reserve(int rows) {
   residuals_.reserve(static_cast<std::size_t>(rows));
   jacobians_.reserve(static_cast<std::size_t>(rows));
+  d_shared_.reserve(static_cast<std::size_t>(rows));
+  group_.reserve(static_cast<std::size_t>(rows));
   first_row_.reserve(static_cast<std::size_t>(rows));
 }
 
 void ResidualRows::add(double residual, const Vector6d& d_residual_d_pose) {
   first_row_.push_back(row_count());
+  group_.push_back(-1);
   residuals_.push_back(residual);
   jacobians_.push_back(d_residual_d_pose);
+  d_shared_.push_back(0.0);
 }
 
 void ResidualRows::add(double residual_1, const Vector6d& jacobian_1, double residual_2, const Vector6d& jacobian_2) {
   add(residual_1, jacobian_1);
   residuals_.push_back(residual_2);
   jacobians_.push_back(jacobian_2);
+  d_shared_.push_back(0.0);
+}
+
+void ResidualRows::share(int group, const Eigen::Vector3d& d_point) {
+  const auto first = static_cast<std::size_t>(first_row_.back());
+  group_.back() = std::clamp(group, 0, kMostGroups - 1);
+  // A point in B moves a row as the body's own position does.
+  for (std::size_t r = first; r < jacobians_.size(); ++r) d_shared_[r] = jacobians_[r].tail<3>().dot(d_point);
 }
 
 void ResidualRows::append(const ResidualRows& other, const Matrix6d& d_other_d_pose) {
   for (const int row : other.first_row_) first_row_.push_back(row_count() + row);
+  group_.insert(group_.end(), other.first_row_.size(), -1);
+  d_shared_.insert(d_shared_.end(), other.residuals_.size(), 0.0);
   residuals_.insert(residuals_.end(), other.residuals_.begin(), other.residuals_.end());
   for (const Vector6d& jacobian : other.jacobians_) jacobians_.push_back(d_other_d_pose.transpose() * jacobian);
 }
@@ -52,8 +68,30 @@ struct NormalEquations {
   Vector6d gradient = Vector6d::Zero();
 };
 
-NormalEquations accumulate(const ResidualRows& rows, const std::vector<double>& weights) {
+/// What the rows of one group say of what they share.
+struct SharedEquations {
+  Vector6d cross = Vector6d::Zero();
+  double information = 0.0;
+  double gradient = 0.0;
+};
+using GroupEquations = std::vector<SharedEquations>;
+
+void add_shared(const ResidualRows& rows, int feature, double weight, GroupEquations& groups) {
+  const auto at = static_cast<std::size_t>(rows.group(feature));
+  if (groups.size() <= at) groups.resize(at + 1);
+  SharedEquations& group = groups[at];
+  for (int r = rows.first_row(feature); r < rows.end_row(feature); ++r) {
+    const double weighted = weight * rows.d_shared(r);
+    group.cross += weighted * rows.jacobian(r);
+    group.information += weighted * rows.d_shared(r);
+    group.gradient += weighted * rows.residual(r);
+  }
+}
+
+/// @param groups  gets the equations of each, if it is not null
+NormalEquations accumulate(const ResidualRows& rows, const std::vector<double>& weights, GroupEquations* groups) {
   NormalEquations sum;
+  if (groups != nullptr) groups->clear();
   for (int f = 0; f < rows.feature_count(); ++f) {
     const double w = weights[static_cast<std::size_t>(f)];
     if (w <= 0.0) continue;
@@ -62,8 +100,18 @@ NormalEquations accumulate(const ResidualRows& rows, const std::vector<double>& 
       sum.information.noalias() += weighted * rows.jacobian(r).transpose();
       sum.gradient += weighted * rows.residual(r);
     }
+    if (groups != nullptr && rows.group(f) >= 0) add_shared(rows, f, w, *groups);
   }
   return sum;
+}
+
+/// Schur complement of the groups' unknowns, each with a prior of unit variance.
+void eliminate(const GroupEquations& groups, NormalEquations& equations) {
+  for (const SharedEquations& group : groups) {
+    const Vector6d gain = group.cross / (group.information + 1.0);
+    equations.information.noalias() -= gain * group.cross.transpose();
+    equations.gradient -= gain * group.gradient;
+  }
 }
 
 /// A feature's residual as one number that a unit-noise row would have: the root mean square over its rows.
@@ -97,7 +145,7 @@ double robust_scale(const ResidualRows& rows, double floor, std::vector<double>&
 /// Bisquare weights (4.11). The leverage h is read from the unweighted normal equations, damped so that it exists.
 void bisquare_weights(const ResidualRows& rows, double scale, std::vector<double>& weights) {
   weights.assign(static_cast<std::size_t>(rows.feature_count()), 1.0);
-  Matrix6d unweighted = accumulate(rows, weights).information;
+  Matrix6d unweighted = accumulate(rows, weights, nullptr).information;
   unweighted.diagonal().array() += 1e-9 * unweighted.trace() + 1e-12;
   const Eigen::LDLT<Matrix6d> factor(unweighted);
   for (int f = 0; f < rows.feature_count(); ++f) {
@@ -183,7 +231,8 @@ class RobustSolve {
     bisquare_weights(rows_, result_.scale, result_.weights);
     result_.inliers = static_cast<int>(
         std::count_if(result_.weights.begin(), result_.weights.end(), [](double w) { return w > 0.0; }));
-    data_ = accumulate(rows_, result_.weights);
+    data_ = accumulate(rows_, result_.weights, &groups_);
+    eliminate(groups_, data_);
   }
 
   void analyse_data() {
@@ -218,6 +267,7 @@ class RobustSolve {
   ResidualRows rows_;
   std::vector<double> scratch_;
   NormalEquations data_;
+  GroupEquations groups_;
   Vector6d correction_ = Vector6d::Zero();
 };
 

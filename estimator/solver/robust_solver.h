@@ -21,8 +21,12 @@ class ResidualRows {
   void add(double residual, const Vector6d& d_residual_d_pose);
   /// Two rows of one feature.
   void add(double residual_1, const Vector6d& jacobian_1, double residual_2, const Vector6d& jacobian_2);
+  /// The newest feature's point errs by `d_point` in B, times a number that all features of its group share: unknown,
+  /// of mean zero and variance one, such as the range bias of a ring. The solver solves for these, too.
+  /// @param group  from 0 on, at most kMostGroups - 1; of a feature whose rows' point moves with the body
+  void share(int group, const Eigen::Vector3d& d_point);
 
-  /// The rows of a problem whose pose moves with this one's: its perturbation is d_other_d_pose times ours.
+  /// The rows of a problem whose pose moves with this one's: its perturbation is d_other_d_pose times ours. No groups.
   void append(const ResidualRows& other, const Matrix6d& d_other_d_pose);
 
   int row_count() const { return static_cast<int>(residuals_.size()); }
@@ -31,11 +35,18 @@ class ResidualRows {
   const Vector6d& jacobian(int row) const { return jacobians_[static_cast<std::size_t>(row)]; }
   int first_row(int feature) const { return first_row_[static_cast<std::size_t>(feature)]; }
   int end_row(int feature) const;
+  int group(int feature) const { return group_[static_cast<std::size_t>(feature)]; }  ///< -1: errs by itself
+  /// Of a row, by what its group shares.
+  double d_shared(int row) const { return d_shared_[static_cast<std::size_t>(row)]; }
+
+  static constexpr int kMostGroups = 256;
 
  private:
   std::vector<double> residuals_;
   std::vector<Vector6d> jacobians_;
+  std::vector<double> d_shared_;
   std::vector<int> first_row_;
+  std::vector<int> group_;
 };
 
 /// Fills `rows` (already cleared) at a pose. The same features must come in the same order for the same pose.
@@ -61,7 +72,8 @@ struct SolverOptions {
 struct SolveResult {
   Pose pose;          ///< the guess where nothing could be solved
   Spectrum spectrum;  ///< of the data at the first iteration
-  /// The data's own normal equations at `pose`: information * d = -gradient, robust weights included, prior excluded.
+  /// The data's own normal equations at `pose`: information * d = -gradient, robust weights included, prior excluded,
+  /// what groups of features share eliminated.
   Matrix6d information = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
   int features = 0;
