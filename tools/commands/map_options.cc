@@ -26,7 +26,7 @@ std::string corner_text(const Eigen::Vector3d& corner) {
 }
 
 PriorMap map_around(const std::string& path, const Eigen::Vector3d& start, double reach_m) {
-  PriorMap map = read_prior_map(path);
+  PriorMap map = read_prior_map(path).map;
   const double distance_m = map.distance(start);
   if (distance_m > reach_m) {
     throw InputError(path + ": its nearest surface is " + readable_text(distance_m) + " m from the start " +

@@ -65,7 +65,7 @@ std::vector<LidarPoint> points_of_pcd(const std::filesystem::path& path) {
     const Eigen::Vector3f position = point.position.cast<float>();
     add_point({position.x(), position.y(), position.z(), point.intensity}, points);
   };
-  read_point_cloud(path, {[](bool /*has_normals*/) {}, take});
+  read_point_cloud(path, {[](const CloudHeader& /*header*/) {}, take});
   return points;
 }
 

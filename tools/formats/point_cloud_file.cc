@@ -3,7 +3,9 @@
 #include <pcl/io/lzf.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <optional>
@@ -14,6 +16,7 @@
 #include <vector>
 
 #include "scenarios/input_error.h"
+#include "tools/formats/number_text.h"
 #include "tools/formats/point_record.h"
 
 namespace plumbline {
@@ -117,13 +120,36 @@ NumberType ply_type(const std::string& name) {
   return found->second;
 }
 
+constexpr char kPlaceOnSite[] = "site_from_cloud";
+constexpr double kFarthestSite_m = 1e7;
+
+/// A header's `comment site_from_cloud X Y Z QX QY QZ QW`.
+Pose place_on_site(const std::vector<std::string>& words) {
+  std::array<double, 7> v{};
+  if (words.size() != v.size() + 2) refuse("site_from_cloud has not seven numbers");
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const std::string& word = words[i + 2];
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), v[i]);
+    if (error != std::errc() || end != word.data() + word.size() || !(std::abs(v[i]) <= kFarthestSite_m)) {
+      refuse("found '" + word + "' in site_from_cloud");
+    }
+  }
+  const Eigen::Quaterniond rotation(v[6], v[3], v[4], v[5]);
+  if (std::abs(rotation.norm() - 1.0) > 1e-3) refuse("the quaternion of site_from_cloud is not of length one");
+  return {rotation.normalized(), {v[0], v[1], v[2]}};
+}
+
 void read_ply(std::istream& file, const CloudListener& listener) {
   std::string format;
   std::string element;
   std::optional<std::uint64_t> points;
   std::vector<RecordField> fields;
+  CloudHeader header;
   for_each_header_line(file, "end_header", [&](const std::vector<std::string>& words) {
     if (words.front() == "format" && words.size() >= 2) format = words[1];
+    if (words.front() == "comment" && words.size() >= 2 && words[1] == kPlaceOnSite) {
+      header.site_from_cloud = place_on_site(words);
+    }
     if (words.front() == "element" && words.size() == 3) {
       element = words[1];
       if (element == "vertex") points = count_from(words[2]);
@@ -135,7 +161,8 @@ void read_ply(std::istream& file, const CloudListener& listener) {
   });
   if (!points) refuse("it has no element vertex");
   const PointRecord record(fields);
-  listener.header(record.has_normals());
+  header.has_normals = record.has_normals();
+  listener.header(header);
   if (format == "ascii") return read_text(file, record, *points, listener);
   if (format != "binary_little_endian" && format != "binary_big_endian") {
     refuse("found format '" + format + "'; allowed are ascii, binary_little_endian and binary_big_endian");
@@ -203,7 +230,7 @@ void read_pcd(std::istream& file, const CloudListener& listener) {
   if (header["POINTS"].size() != 1 || header["DATA"].size() != 1) refuse("POINTS or DATA is missing");
   const std::uint64_t points = count_from(header["POINTS"].front());
   const std::string& data = header["DATA"].front();
-  listener.header(record.has_normals());
+  listener.header({record.has_normals(), std::nullopt});
   if (data == "ascii") return read_text(file, record, points, listener);
   if (data == "binary") return read_binary(file, record, points, /*swapped=*/false, listener);
   if (data == "binary_compressed") return read_compressed(file, record, points, listener);
@@ -235,15 +262,37 @@ void read_point_cloud(const fs::path& path, const CloudListener& listener) {
   }
 }
 
-PriorMap read_prior_map(const fs::path& path) {
+SitedMap read_prior_map(const fs::path& path) {
   std::optional<PriorMapBuilder> builder;
-  read_point_cloud(path, {[&](bool has_normals) { builder.emplace(has_normals); },
+  std::optional<Pose> site_from_map;
+  read_point_cloud(path, {[&](const CloudHeader& header) {
+                            builder.emplace(header.has_normals);
+                            site_from_map = header.site_from_cloud;
+                          },
                           [&](const CloudPoint& p) { builder->add(p.position, p.normal, p.intensity); }});
   try {
-    return builder->build();
+    return {builder->build(), site_from_map};
   } catch (const std::invalid_argument& error) {
     throw InputError(path.string() + ": " + error.what());
   }
+}
+
+void write_place_on_site(const fs::path& ply, const Pose& site_from_cloud) {
+  const Eigen::Vector3d& t = site_from_cloud.translation;
+  const Eigen::Vector4d& q = site_from_cloud.rotation.coeffs();
+  std::string comment = std::string("comment ") + kPlaceOnSite;
+  for (const double number : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}) append_exact(comment += ' ', number);
+  const fs::path before = ply.string() + ".before";
+  fs::rename(ply, before);
+  {
+    std::ifstream from(before, std::ios::binary);
+    std::ofstream to(ply, std::ios::binary);
+    std::string line;
+    for (int k = 0; k < 2 && std::getline(from, line); ++k) to << line << '\n';  // "ply" and its format
+    to << comment << '\n' << from.rdbuf();
+    if (!from || !to.flush()) throw std::runtime_error(ply.string() + ": cannot be written");
+  }
+  fs::remove(before);
 }
 
 }  // namespace plumbline

@@ -3,7 +3,9 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <functional>
+#include <optional>
 
+#include "estimator/geometry/pose.h"
 #include "estimator/localization/prior_map.h"
 
 namespace plumbline {
@@ -14,9 +16,14 @@ struct CloudPoint {
   float intensity = 0.0F;
 };
 
+struct CloudHeader {
+  bool has_normals = false;
+  std::optional<Pose> site_from_cloud;  ///< see write_place_on_site()
+};
+
 /// Who is told of a cloud as it is read: first what it has, then each of its points.
 struct CloudListener {
-  std::function<void(bool has_normals)> header;
+  std::function<void(const CloudHeader&)> header;
   std::function<void(const CloudPoint&)> point;
 };
 
@@ -27,6 +34,14 @@ struct CloudListener {
 void read_point_cloud(const std::filesystem::path& path, const CloudListener& listener);
 
 /// A map to localize on. @throws InputError, also for one without usable points
-PriorMap read_prior_map(const std::filesystem::path& path);
+struct SitedMap {
+  PriorMap map;
+  std::optional<Pose> site_from_map;
+};
+SitedMap read_prior_map(const std::filesystem::path& path);
+
+/// Says in a PLY where it lies on its site, in a header line that other readers skip:
+/// `comment site_from_cloud X Y Z QX QY QZ QW`. @throws std::runtime_error if the file cannot be written
+void write_place_on_site(const std::filesystem::path& ply, const Pose& site_from_cloud);
 
 }  // namespace plumbline

@@ -48,7 +48,7 @@ class PointCloudFile : public ::testing::Test {
   std::vector<Eigen::Vector3d> read(const std::string& name, const std::string& content) const {
     std::vector<Eigen::Vector3d> points;
     read_point_cloud(written(name, content),
-                     {[](bool) {}, [&](const CloudPoint& point) { points.push_back(point.position); }});
+                     {[](const CloudHeader&) {}, [&](const CloudPoint& point) { points.push_back(point.position); }});
     return points;
   }
   /// What is said of a file that cannot be used.
@@ -84,8 +84,9 @@ TEST_F(PointCloudFile, SkipsOtherFieldsAndTypes) {
       "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
   CloudPoint seen;
   bool normals = false;
-  read_point_cloud(written("m.ply", header + "255 1.5 2 3 0 0 1 0.5\n3 0 0 0\n"),
-                   {[&](bool has_normals) { normals = has_normals; }, [&](const CloudPoint& p) { seen = p; }});
+  read_point_cloud(
+      written("m.ply", header + "255 1.5 2 3 0 0 1 0.5\n3 0 0 0\n"),
+      {[&](const CloudHeader& cloud) { normals = cloud.has_normals; }, [&](const CloudPoint& p) { seen = p; }});
   EXPECT_TRUE(normals);
   EXPECT_EQ(seen.position, Eigen::Vector3d(1.5, 2.0, 3.0));
   EXPECT_EQ(seen.normal, Eigen::Vector3f(0.0F, 0.0F, 1.0F));
@@ -98,7 +99,7 @@ TEST_F(PointCloudFile, OurOwnMapComesBackWithItsNormalsAndEdges) {
   const MapPoint edge{{-1.0F, 0.0F, 0.25F}, 0.1F};
   const auto path = directory_.path() / "map.ply";
   write_ply(path.string(), {wall, edge});
-  const PriorMap map = read_prior_map(path);
+  const PriorMap map = read_prior_map(path).map;
   ASSERT_EQ(map.surfaces.planes.size(), 1u);
   EXPECT_EQ(map.surfaces.planes.front().normal, wall.normal);
   ASSERT_EQ(map.surfaces.edges.size(), 1u);
