@@ -6,12 +6,15 @@
 #include "estimator/geometry/so3.h"
 
 namespace plumbline {
-FlightGuidance::FlightGuidance(const Scenario& scenario, const Pose& world_from_body_on_pad)
+FlightGuidance::FlightGuidance(const Scenario& scenario, const Pose& world_from_body_on_pad,
+                               const std::optional<Pose>& world_from_estimate)
     : world_from_body_on_pad_(world_from_body_on_pad),
+      on_map_(world_from_estimate.has_value()),
       body_from_craft_(
           (scenario.rig.vehicle_from_pack * Pose{Eigen::Quaterniond::Identity(), scenario.rig.imu.position_in_body})
               .inverse()),
-      latency_ns_(std::llround(scenario.motion.closed_loop.latency_s * 1e9)) {}
+      latency_ns_(std::llround(scenario.motion.closed_loop.latency_s * 1e9)),
+      world_from_frame_(world_from_estimate) {}
 
 void FlightGuidance::add(const Odometry& output, const ImuSample& sample, std::int64_t arrival_ns) {
   const Eigen::Vector3d rate = sample.angular_rate - output.gyro_bias;
@@ -32,7 +35,7 @@ void FlightGuidance::let_through(std::int64_t now_ns) {
 
 void FlightGuidance::lay_out(std::int64_t now_ns) {
   let_through(now_ns);
-  if (current_) world_from_frame_ = world_from_body_on_pad_ * current_->frame_from_body.inverse();
+  if (current_ && !on_map_) world_from_frame_ = world_from_body_on_pad_ * current_->frame_from_body.inverse();
 }
 
 std::optional<FlightState> FlightGuidance::believed(std::int64_t now_ns) {

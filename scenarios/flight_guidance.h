@@ -18,12 +18,16 @@ namespace plumbline {
 class FlightGuidance {
  public:
   /// @param world_from_body_on_pad  of the IMU while the craft stands on its pad
-  FlightGuidance(const Scenario& scenario, const Pose& world_from_body_on_pad);
+  /// @param world_from_estimate     where the estimate's world lies, if it is a map whose place on the site is known:
+  ///                                the mission is then laid out on the map, and the pad has no part in it
+  FlightGuidance(const Scenario& scenario, const Pose& world_from_body_on_pad,
+                 const std::optional<Pose>& world_from_estimate = std::nullopt);
 
   /// An output, as the sample that arrived at arrival_ns brought it. One that is not finite is not passed on.
   void add(const Odometry& output, const ImuSample& sample, std::int64_t arrival_ns);
 
-  /// The mission is laid out from where the newest estimate now takes the craft to stand; asked for on the pad.
+  /// Without a map: the mission is laid out from where the newest estimate now takes the craft to stand; asked for on
+  /// the pad.
   void lay_out(std::int64_t now_ns);
 
   /// The craft's state in the world, carried on from the newest estimate by its velocity and rate; nothing before there
@@ -48,6 +52,7 @@ class FlightGuidance {
   void let_through(std::int64_t now_ns);
 
   Pose world_from_body_on_pad_;
+  bool on_map_;
   Pose body_from_craft_;
   std::int64_t latency_ns_;
   std::optional<Pose> world_from_frame_;  // the frame is the estimate's world

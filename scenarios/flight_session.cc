@@ -40,7 +40,7 @@ class Flight {
         log_truth_([this](std::int64_t stamp_ns, const Pose& pose) { recorder_.add_truth(stamp_ns, pose); }),
         truth_(scenario.rig.imu, world_from_body_, end_ns_, options, log_truth_),
         sensors_(scenario, surroundings, world_from_body_, options.threads > 1 ? kRendererThreads : 0),
-        guidance_(scenario, world_from_body_.pose(0) * imu_in_body_) {}
+        guidance_(scenario, world_from_body_.pose(0) * imu_in_body_, options.world_from_estimate) {}
 
   RunRecord fly() {
     while (now_ns_ < end_ns_ && record_.end == FlightEnd::kCut && !recorder_.faulted()) step();
@@ -121,13 +121,21 @@ std::vector<Eigen::Vector3d> waypoints_of(const MotionConfig& config, const Worl
   return points;
 }
 
+GuidedFlight craft_of(const Scenario& scenario, const World& world) {
+  return as_input(scenario, [&] { return GuidedFlight(scenario.motion, world, scenario.seed); });
+}
+
 }  // namespace
+
+Pose world_from_body_on_pad(const Scenario& scenario, const World& world) {
+  return craft_of(scenario, world).world_from_craft() * scenario.rig.vehicle_from_pack;
+}
 
 RunRecord run_flight(const Scenario& scenario, const World& world, const RayScene& rays, const SessionOptions& options,
                      Estimator& estimator) {
   const std::unique_ptr<OwnBody> own_body = make_own_body(scenario);
   const Surroundings surroundings{world, rays, own_body.get()};
-  auto craft = as_input(scenario, [&] { return GuidedFlight(scenario.motion, world, scenario.seed); });
+  GuidedFlight craft = craft_of(scenario, world);
   Flight flight(scenario, surroundings, options, estimator, craft);
   flight.set_waypoints(as_input(scenario, [&] { return waypoints_of(scenario.motion, world); }));
   return flight.fly();

@@ -12,4 +12,7 @@ namespace plumbline {
 RunRecord run_flight(const Scenario& scenario, const World& world, const RayScene& rays, const SessionOptions& options,
                      Estimator& estimator);
 
+/// Where the pack of sensors is while the craft stands on its pad. @throws InputError
+Pose world_from_body_on_pad(const Scenario& scenario, const World& world);
+
 }  // namespace plumbline

@@ -33,6 +33,10 @@ void read_scenario(ConfigReader& reader, Scenario& scenario) {
   reader.section("estimator", [&](ConfigReader& estimator) {
     read_estimator(estimator, scenario.estimator_name, scenario.estimator_directory, scenario.estimator);
   });
+  reader.section("localization", [&](ConfigReader& localization) {
+    std::filesystem::path survey;
+    if (localization.read("survey", survey)) scenario.survey = survey;
+  });
   reader.section("expect", [&](ConfigReader& expect) { read_expect(expect, scenario.expect, scenario.expect_status); });
   reader.finish();
 }

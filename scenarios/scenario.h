@@ -106,6 +106,8 @@ struct Scenario {
   std::string estimator_name = "vloam";       ///< of estimator_library(), or an OutsideName
   std::filesystem::path estimator_directory;  ///< in which an outside estimator is started: where its name was set
   EstimatorConfig estimator;
+  /// A scenario that is run first, in this one's world: on the map that it leaves this run is localized.
+  std::optional<std::filesystem::path> survey;
   std::vector<Expectation> expect;
   std::optional<std::string> expect_status;
 };

@@ -76,6 +76,13 @@ Trajectory make_body_trajectory(const Scenario& scenario, const World& world, co
   });
 }
 
+Pose world_from_imu_at_start(const Scenario& scenario, const World& world, const RayScene& rays) {
+  const Pose world_from_body = scenario.motion.closed_loop.enabled
+                                   ? world_from_body_on_pad(scenario, world)
+                                   : make_body_trajectory(scenario, world, rays).pose(0);
+  return world_from_body * Pose{Eigen::Quaterniond::Identity(), scenario.rig.imu.position_in_body};
+}
+
 std::unique_ptr<OwnBody> make_own_body(const Scenario& scenario) {
   if (!scenario.rig.own_body || scenario.motion.vehicle.empty()) return nullptr;
   const VehicleInfo& vehicle = vehicle_named(scenario.motion.vehicle);

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "scenarios/recording.h"
 #include "scenarios/run_record.h"
@@ -20,6 +21,9 @@ struct SessionOptions {
   /// Called now and then with the simulated share done, [0, 1]; false ends the run there, its record so far kept and
   /// marked as interrupted.
   std::function<bool(double)> progress;
+  /// Where the estimate's world lies, if that is known: a mission is flown by it, otherwise it is laid out from its
+  /// pad.
+  std::optional<Pose> world_from_estimate;
   /// Called with what was tracked in each image that vision worked on.
   std::function<void(std::int64_t stamp_ns, const std::vector<TrackedFeature>&)> on_image;
 };
@@ -30,6 +34,9 @@ World make_world(const Scenario& scenario);
 /// The body's exact motion in a scenario, stamps counted from 0. @throws InputError, also for a flight in closed loop,
 /// whose motion is not known ahead
 Trajectory make_body_trajectory(const Scenario& scenario, const World& world, const RayScene& rays);
+
+/// Where the IMU is when a run begins, as if surveyed. @throws InputError
+Pose world_from_imu_at_start(const Scenario& scenario, const World& world, const RayScene& rays);
 
 /// The vehicle as its sensors see it; nullptr where there is none, or it is left out.
 std::unique_ptr<OwnBody> make_own_body(const Scenario& scenario);

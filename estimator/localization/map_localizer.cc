@@ -66,7 +66,7 @@ MatchEvidence MapLocalizer::evidence_of(const FeatureCloud& stack, const SolveRe
   for (const std::uint32_t i : sample_by_direction(stack.planes, kStackPlaneBudget)) planes.push_back(stack.planes[i]);
   const Matrix6d expected =
       plane_information(planes_near(planes, occupancy_, solved.pose), matcher_.rows().front().sigma_m);
-  evidence.support = map_support(expected, solved.information, ScanMatcherConfig{}.degeneracy_threshold);
+  evidence.support = map_support(expected, solved.information_of_rows, ScanMatcherConfig{}.degeneracy_threshold);
   return evidence;
 }
 

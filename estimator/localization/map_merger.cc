@@ -108,7 +108,7 @@ double support_of(const ScanMatcher& matcher, const Fit& found) {
   for (const std::uint32_t i : sample_by_direction(found.overlap.features.planes, kMergePlaneBudget)) {
     planes.push_back(found.overlap.features.planes[i]);
   }
-  return map_support(plane_information(planes, matcher.rows().front().sigma_m), found.solved.information,
+  return map_support(plane_information(planes, matcher.rows().front().sigma_m), found.solved.information_of_rows,
                      ScanMatcherConfig{}.degeneracy_threshold);
 }
 

@@ -224,6 +224,7 @@ class RobustSolve {
     linearize_(result_.pose, rows_);
     result_.features = rows_.feature_count();
     data_ = {};
+    result_.information_of_rows = Matrix6d::Zero();
     result_.inliers = 0;
     result_.weights.assign(static_cast<std::size_t>(result_.features), 0.0);
     if (!all_finite(rows_)) return;
@@ -232,6 +233,7 @@ class RobustSolve {
     result_.inliers = static_cast<int>(
         std::count_if(result_.weights.begin(), result_.weights.end(), [](double w) { return w > 0.0; }));
     data_ = accumulate(rows_, result_.weights, &groups_);
+    result_.information_of_rows = data_.information;
     eliminate(groups_, data_);
   }
 

@@ -76,6 +76,8 @@ struct SolveResult {
   /// what groups of features share eliminated.
   Matrix6d information = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
+  /// J^T J of the rows alone, as if none shared an error.
+  Matrix6d information_of_rows = Matrix6d::Zero();
   int features = 0;
   int inliers = 0;                       ///< with a weight above zero
   std::vector<double> weights;           ///< per feature, in [0, 1]

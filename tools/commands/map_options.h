@@ -2,11 +2,12 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "estimator/estimator.h"
-#include "estimator/localization/prior_map.h"
+#include "tools/formats/point_cloud_file.h"
 
 namespace plumbline {
 
@@ -20,9 +21,16 @@ struct MapArguments {
 
 void add_map_options(CLI::App& verb, MapArguments& arguments);
 
-/// An odometry localized on the map that was asked for, or as it was where none was. @throws InputError for a map that
-/// cannot be used, or that has nothing within the lidar's reach of the start
-std::unique_ptr<Estimator> localize(std::unique_ptr<Estimator> odometry, const MapArguments& arguments,
-                                    const Calibration& calibration, const EstimatorConfig& config);
+/// The map that was asked for, if one was. @throws InputError
+/// @param on_site  where the run, too, is in the site's frame
+std::optional<SitedMap> map_of(const MapArguments& arguments, bool on_site);
+
+/// An odometry localized on a map. @throws InputError if that has nothing within the lidar's reach of the start
+/// @param site_from_start  where the run begins, if that is known: without --map-start it tells where on a map that
+/// knows
+///                         its site
+std::unique_ptr<Estimator> localize(std::unique_ptr<Estimator> odometry, const SitedMap& map,
+                                    const MapArguments& arguments, const Calibration& calibration,
+                                    const EstimatorConfig& config, const std::optional<Pose>& site_from_start = {});
 
 }  // namespace plumbline

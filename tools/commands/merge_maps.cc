@@ -94,7 +94,7 @@ int merge_maps(const MergeMapsArguments& arguments) {
   const fs::path out = arguments.out;
   if (out.extension() != ".ply")
     throw InputError("--out: found '" + arguments.out + "'; allowed is a name ending in .ply");
-  const auto [a, site_from_a] = read_prior_map(arguments.a);
+  const PriorMap a = read_prior_map(arguments.a).map;
   const PriorMap b = read_prior_map(arguments.b).map;
   const MapAlignment alignment = align_maps(a, b, guess_of(arguments));
   print(alignment);

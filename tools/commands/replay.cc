@@ -54,9 +54,11 @@ int replay(const ReplayArguments& arguments) {
   const Dataset dataset = open_dataset(arguments.format, arguments.dataset, config.dataset);
   Scenario& scenario = config.scenario;
   if (!dataset.has_imu) scenario.estimator.imu_enabled = false;
-  const auto estimator = localize(
-      open_estimator(scenario.estimator_name, scenario.estimator_directory, dataset.calibration, scenario.estimator),
-      arguments.map, dataset.calibration, scenario.estimator);
+  auto estimator =
+      open_estimator(scenario.estimator_name, scenario.estimator_directory, dataset.calibration, scenario.estimator);
+  if (const auto map = map_of(arguments.map, /*on_site=*/false)) {
+    estimator = localize(std::move(estimator), *map, arguments.map, dataset.calibration, scenario.estimator);
+  }
   const int threads = threads_of(arguments.threads);
   cv::setNumThreads(1);
   directory.open();

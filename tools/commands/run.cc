@@ -11,6 +11,7 @@
 #include "scenarios/session.h"
 #include "tools/commands/command.h"
 #include "tools/commands/shared_options.h"
+#include "tools/commands/survey.h"
 #include "tools/exit_code.h"
 #include "tools/interrupt.h"
 #include "tools/lab/lab_table.h"
@@ -33,21 +34,32 @@ std::filesystem::path output_of(const RunArguments& arguments, const Scenario& s
   return std::filesystem::path("out") / (scenario.name + "-" + std::to_string(scenario.seed));
 }
 
-std::unique_ptr<Estimator> estimator_for(const RunArguments& arguments, const Scenario& scenario) {
-  return localize(open_estimator(scenario), arguments.map, calibration_of(scenario.rig), scenario.estimator);
+SessionOptions options_with(ProgressLine& line, int threads) {
+  SessionOptions options;
+  options.threads = threads;
+  options.progress = [&line](double share) {
+    line.update(share);
+    return !interrupted();
+  };
+  return options;
+}
+
+/// What the run is localized on: the map asked for, or one that the scenario's survey makes first.
+std::optional<SitedMap> prior_map(const RunArguments& arguments, const Scenario& scenario, const World& world,
+                                  const RayScene& rays, int threads) {
+  if (std::optional<SitedMap> map = map_of(arguments.map, /*on_site=*/true)) return map;
+  if (!scenario.survey) return std::nullopt;
+  const Scenario survey = survey_of(scenario);
+  ProgressLine line(survey.name);
+  return make_survey(survey, world, rays, options_with(line, threads));
 }
 
 /// A fault of ours ends the run, not its record: the directory says what happened.
 /// @param images  gets what was tracked in each, if it is not null
 RunRecord simulate(const RunArguments& arguments, const Scenario& scenario, const World& world, const RayScene& rays,
-                   int threads, std::vector<TrackedImage>* images) {
+                   const std::optional<SitedMap>& map, int threads, std::vector<TrackedImage>* images) {
   ProgressLine line(scenario.name);
-  SessionOptions options;
-  options.threads = threads;
-  options.progress = [&](double share) {
-    line.update(share);
-    return !interrupted();
-  };
+  SessionOptions options = options_with(line, threads);
   if (images != nullptr) {
     options.on_image = [images](std::int64_t stamp_ns, const std::vector<TrackedFeature>& features) {
       images->push_back({stamp_ns, {}});
@@ -55,9 +67,14 @@ RunRecord simulate(const RunArguments& arguments, const Scenario& scenario, cons
     };
   }
   try {
-    const auto estimator = estimator_for(arguments, scenario);
+    auto estimator = open_estimator(scenario);
+    if (map) {
+      if (map->on_site) options.world_from_estimate = Pose{};
+      estimator = localize(std::move(estimator), *map, arguments.map, calibration_of(scenario.rig), scenario.estimator,
+                           world_from_imu_at_start(scenario, world, rays));
+    }
     RunRecord record = run_session(scenario, world, rays, options, *estimator);
-    record.prior_map = arguments.map.map;
+    record.prior_map = !map ? "" : !arguments.map.map.empty() ? arguments.map.map : scenario.survey->string();
     return record;
   } catch (const InputError&) {
     throw;
@@ -97,7 +114,9 @@ int run_scenario(const RunArguments& arguments) {
   directory.open();
   catch_interrupts();
   std::vector<TrackedImage> images;
-  const RunRecord record = simulate(arguments, scenario, world, rays, threads, arguments.detectors ? &images : nullptr);
+  const std::optional<SitedMap> map = prior_map(arguments, scenario, world, rays, threads);
+  const RunRecord record =
+      simulate(arguments, scenario, world, rays, map, threads, arguments.detectors ? &images : nullptr);
   if (arguments.detectors && !interrupted()) judge_detectors(scenario, world, rays, images, directory);
   const JudgedRun run = write_run(
       directory, scenario, record,

@@ -8,7 +8,6 @@ namespace plumbline {
 namespace {
 
 constexpr std::int64_t kFirstSecondNs = 1'000'000'000;
-constexpr double kAttitudeWeight = 0.01;  // of the path's extent, as align() documents
 
 /// The rotation that maximises trace(R^T m): the nearest to a sum of rotations or of outer products.
 Eigen::Quaterniond nearest_rotation(const Eigen::Matrix3d& m) {
@@ -51,10 +50,10 @@ Moments moments_of(const std::vector<PosePair>& pairs) {
   return m;
 }
 
-Alignment align_whole(const std::vector<PosePair>& pairs, AlignmentKind kind) {
+Alignment align_whole(const std::vector<PosePair>& pairs, AlignmentKind kind, double attitude_weight) {
   const Moments m = moments_of(pairs);
   // A resting truth has no extent, and then the attitudes alone decide.
-  const double weight = std::max(kAttitudeWeight * kAttitudeWeight * m.truth_variance, 1e-12);
+  const double weight = std::max(attitude_weight * attitude_weight * m.truth_variance, 1e-12);
   const Eigen::Matrix3d evidence = m.covariance + weight * m.attitude;
 
   Alignment result;
@@ -99,10 +98,15 @@ Pose align_first_second(const std::vector<PosePair>& pairs) {
   return truth_from_estimate;
 }
 
-Alignment align(const std::vector<PosePair>& pairs, AlignmentKind kind) {
+Alignment align(const std::vector<PosePair>& pairs, AlignmentKind kind, double attitude_weight) {
   if (pairs.empty() || kind == AlignmentKind::kNone) return {};
   if (kind == AlignmentKind::kOrigin) return {pairs.front().truth * pairs.front().estimate.inverse(), 1.0};
-  return align_whole(pairs, kind);
+  return align_whole(pairs, kind, attitude_weight);
+}
+
+Pose place_on_site(const std::vector<PosePair>& pairs) {
+  constexpr double kVerticalWeight = 0.1;
+  return align(pairs, AlignmentKind::kSe3, kVerticalWeight).truth_from_estimate;
 }
 
 }  // namespace plumbline

@@ -28,8 +28,13 @@ std::optional<AlignmentKind> alignment_kind(const std::string& name);
 Pose align_first_second(const std::vector<PosePair>& pairs);
 
 /// Over all pairs. `origin` maps the first estimate onto the first truth; `yaw` turns about the vertical only; `se3`
-/// and `sim3` follow Umeyama, PAMI 13(4), 1991, eqs. 38-42, on the positions. Attitudes enter with the weight of 1 % of
-/// the path's extent, which settles the roll about a straight path and moves nothing else.
-Alignment align(const std::vector<PosePair>& pairs, AlignmentKind kind);
+/// and `sim3` follow Umeyama, PAMI 13(4), 1991, eqs. 38-42, on the positions. Attitudes enter with a weight, a share of
+/// the path's extent: 1 % settles the roll about a straight path and moves nothing else.
+Alignment align(const std::vector<PosePair>& pairs, AlignmentKind kind, double attitude_weight = 0.01);
+
+/// Where a run's map lies in the true world, as surveyors would lay it on its site: by points along the way whose
+/// places are known, and by the vertical, since points along two lanes some metres apart would tell the roll about them
+/// from how far either has drifted.
+Pose place_on_site(const std::vector<PosePair>& pairs);
 
 }  // namespace plumbline

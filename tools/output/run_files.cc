@@ -1,6 +1,8 @@
 #include "tools/output/run_files.h"
 
 #include "estimator/estimator.h"
+#include "tools/evaluation/alignment.h"
+#include "tools/formats/point_cloud_file.h"
 #include "tools/formats/tum.h"
 #include "tools/output/result_json.h"
 #include "tools/output/run_tables.h"
@@ -18,6 +20,8 @@ void write_data(const RunDirectory& directory, const Scenario& scenario, const R
   if (!record.prior_map.empty()) directory.write("localization.csv", localization_csv(record.map_matches));
   directory.write("scenario.yaml", scenario.resolved_yaml);
   write_ply(directory.staged("map.ply").string(), record.map);
+  const std::vector<PosePair> pairs = pair_poses(record.ground_truth, record.estimate);
+  if (!pairs.empty()) write_place_on_site(directory.staged("map.ply"), place_on_site(pairs));
 }
 
 void take_wall_time(RunFigures& figures) {
