@@ -72,7 +72,9 @@ struct ScanMatcher::Impl {
         body_from_lidar(calibration.body_from_lidar),
         edges(settings.coarse_voxel_m, settings.edge_resolution_m),
         planes(settings.coarse_voxel_m, settings.plane_resolution_m),
-        clutter(settings.coarse_voxel_m, kClutterResolution_m, VoxelMap::Forgotten::kLost) {
+        clutter(settings.coarse_voxel_m, kClutterResolution_m),
+        recorded_edges(settings.coarse_voxel_m, settings.edge_resolution_m),
+        recorded_planes(settings.coarse_voxel_m, settings.plane_resolution_m) {
     options.max_iterations = settings.max_iterations;
     options.rotation_tolerance = settings.rotation_tolerance;
     options.translation_tolerance = settings.translation_tolerance;
@@ -97,6 +99,8 @@ struct ScanMatcher::Impl {
   VoxelMap edges;
   VoxelMap planes;
   VoxelMap clutter;
+  VoxelMap recorded_edges;
+  VoxelMap recorded_planes;
   std::vector<MatchRow> rows;  ///< of the last match
 };
 
@@ -329,27 +333,33 @@ Matrix6d MatchDrift::covariance(const Eigen::Vector3d& step_in_body) const {
 
 const std::vector<MatchRow>& ScanMatcher::rows() const { return impl_->rows; }
 
-void ScanMatcher::insert(const FeatureCloud& features, const Pose& world_from_body, double path_m) {
+void ScanMatcher::insert(const FeatureCloud& features, const Pose& map_from_body, double path_m,
+                         const std::optional<Pose>& world_from_body) {
   Impl& m = *impl_;
   const double oldest_m = path_m - m.config.memory_path_m;
   m.edges.forget_before(oldest_m);
   m.planes.forget_before(oldest_m);
   m.clutter.forget_before(oldest_m);
-  const Eigen::Matrix3f rotation = world_from_body.rotation.toRotationMatrix().cast<float>();
-  const auto merge = [&](const FeaturePoint& f, VoxelMap& map) {
-    map.insert({world_from_body * f.position.cast<double>(), rotation * f.normal}, f.intensity, path_m);
+  const auto merge = [&](const std::vector<FeaturePoint>& points, const Pose& target_from_body, VoxelMap& map) {
+    const Eigen::Matrix3f rotation = target_from_body.rotation.toRotationMatrix().cast<float>();
+    for (const FeaturePoint& f : points) {
+      map.insert({target_from_body * f.position.cast<double>(), rotation * f.normal}, f.intensity, path_m);
+    }
   };
-  for (const FeaturePoint& f : features.edges) merge(f, m.edges);
-  for (const FeaturePoint& f : features.planes) merge(f, m.planes);
+  merge(features.edges, map_from_body, m.edges);
+  merge(features.planes, map_from_body, m.planes);
   for (const FeaturePoint& f : features.clutter) {
-    m.clutter.insert({world_from_body * f.position.cast<double>(), Eigen::Vector3f::Zero()}, f.intensity, path_m);
+    m.clutter.insert({map_from_body * f.position.cast<double>(), Eigen::Vector3f::Zero()}, f.intensity, path_m);
   }
+  const Pose& recorded = world_from_body ? *world_from_body : map_from_body;
+  merge(features.edges, recorded, m.recorded_edges);
+  merge(features.planes, recorded, m.recorded_planes);
 }
 
 std::vector<MapPoint> ScanMatcher::map() const {
   std::vector<MapPoint> points;
-  impl_->edges.collect(points);
-  impl_->planes.collect(points);
+  impl_->recorded_edges.collect(points);
+  impl_->recorded_planes.collect(points);
   return points;
 }
 

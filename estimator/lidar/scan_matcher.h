@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "estimator/estimator.h"
@@ -70,10 +71,14 @@ class ScanMatcher {
   const MatchDrift& drift() const;
 
   /// Merges a scan into the map at a pose and forgets what is older than memory_path_m.
-  /// @param path_m  distance travelled so far by the estimate
-  void insert(const FeatureCloud& features_in_body, const Pose& world_from_body, double path_m);
+  /// @param path_m           distance travelled so far by the estimate
+  /// @param world_from_body  where the estimate takes the body to be, if that is not where the map has it: what map()
+  ///                         gives lies there
+  void insert(const FeatureCloud& features_in_body, const Pose& map_from_body, double path_m,
+              const std::optional<Pose>& world_from_body = std::nullopt);
 
-  /// Everything ever inserted, down-sampled, in a fixed order; also what matching has forgotten.
+  /// Everything ever inserted, down-sampled, in a fixed order, in the estimate's world; also what matching has
+  /// forgotten.
   std::vector<MapPoint> map() const;
 
  private:

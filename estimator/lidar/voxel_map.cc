@@ -24,8 +24,8 @@ int floor_divide(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
 
 }  // namespace
 
-VoxelMap::VoxelMap(double coarse_voxel_m, double resolution_m, Forgotten forgotten)
-    : coarse_m_(coarse_voxel_m), resolution_m_(resolution_m), forgotten_(forgotten) {}
+VoxelMap::VoxelMap(double coarse_voxel_m, double resolution_m)
+    : coarse_m_(coarse_voxel_m), resolution_m_(resolution_m) {}
 
 VoxelMap::CoarseVoxel* VoxelMap::find(const Eigen::Vector3i& coarse) {
   const std::uint32_t at = voxel_index_.find(pack_cell(coarse));
@@ -78,10 +78,7 @@ void VoxelMap::drop_older(CoarseVoxel& voxel, double path_m) {
   voxel.oldest_path_m = std::numeric_limits<double>::infinity();
   voxel.changed = true;
   for (const Cell& cell : old) {
-    if (cell.first_path_m < path_m) {
-      if (forgotten_ == Forgotten::kKept) archive_.push_back(exported(cell.mean, cell.intensity));
-      continue;
-    }
+    if (cell.first_path_m < path_m) continue;
     voxel.index.find_or_insert(cell.key, static_cast<std::uint32_t>(voxel.cells.size()));
     voxel.cells.push_back(cell);
     voxel.oldest_path_m = std::min(voxel.oldest_path_m, cell.first_path_m);
@@ -143,7 +140,6 @@ void VoxelMap::nearest(const Eigen::Vector3d& query, double largest_distance, Ne
 }
 
 void VoxelMap::collect(std::vector<MapPoint>& points) const {
-  points.insert(points.end(), archive_.begin(), archive_.end());
   for (const CoarseVoxel& voxel : voxels_) {
     for (const Cell& cell : voxel.cells) points.push_back(exported(cell.mean, cell.intensity));
   }

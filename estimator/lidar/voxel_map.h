@@ -15,25 +15,21 @@ namespace plumbline {
 /// voxels that the scan hits enter its KD-tree.
 class VoxelMap {
  public:
-  enum class Forgotten { kKept, kLost };
-
   /// @param resolution_m  edge of a cell: the map's density
-  /// @param forgotten     what becomes of points that leave matching
-  VoxelMap(double coarse_voxel_m, double resolution_m, Forgotten forgotten = Forgotten::kKept);
+  VoxelMap(double coarse_voxel_m, double resolution_m);
 
   /// Merges a point in W: its cell keeps the mean of the first points that fell into it, which cuts their noise.
   /// @param path_m  distance travelled so far
   void insert(const MapSample& point, float intensity, double path_m);
 
-  /// Takes what was first seen before a path length out of matching; it stays in collect(), if forgotten points are
-  /// kept.
+  /// Drops what was first seen before a path length.
   void forget_before(double path_m);
 
   /// Builds the trees that searches near these points need; nearest() sees what was inserted before.
   void prepare(const std::vector<Eigen::Vector3d>& points_in_world);
   void nearest(const Eigen::Vector3d& query_in_world, double largest_distance, NearestSamples& nearest) const;
 
-  /// Appends everything that was inserted and not lost, in the order of insertion of voxels and cells.
+  /// Appends everything that was inserted and not dropped, in the order of insertion of voxels and cells.
   void collect(std::vector<MapPoint>& points) const;
 
  private:
@@ -66,10 +62,8 @@ class VoxelMap {
 
   double coarse_m_;
   double resolution_m_;
-  Forgotten forgotten_;
   std::vector<CoarseVoxel> voxels_;
   FlatIndex voxel_index_;  // packed coarse cell -> position in voxels_
-  std::vector<MapPoint> archive_;
 };
 
 }  // namespace plumbline

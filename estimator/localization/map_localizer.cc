@@ -30,12 +30,11 @@ ScanMatcherConfig stack_matcher_config() {
   return config;
 }
 
-PosePrior prior_at(const Pose& predicted, double travelled_m) {
-  const OdometryDrift drift;
+/// As the matcher weighs it, to whom each row is of one error of its own.
+PosePrior prior_at(const Pose& predicted, const AgreementGate& gate) {
   Vector6d sigma;
-  sigma << Eigen::Vector3d::Constant(drift.rotation_sigma(travelled_m)),
-      Eigen::Vector3d::Constant(drift.translation_sigma(travelled_m));
-  return {predicted, sigma.cwiseAbs2().asDiagonal()};
+  sigma << Eigen::Vector3d::Constant(gate.rotation_sigma()), Eigen::Vector3d::Constant(gate.translation_sigma());
+  return {predicted, (sigma.cwiseAbs2() / kInflation).asDiagonal()};
 }
 
 Matrix6d covariance_of(const SolveResult& solved) {
@@ -65,7 +64,7 @@ MatchEvidence MapLocalizer::evidence_of(const FeatureCloud& stack, const SolveRe
   std::vector<FeaturePoint> planes;
   for (const std::uint32_t i : sample_by_direction(stack.planes, kStackPlaneBudget)) planes.push_back(stack.planes[i]);
   const Matrix6d expected =
-      plane_information(planes_near(planes, occupancy_, solved.pose), matcher_.rows().front().sigma_m);
+      plane_information(planes_near(planes, occupancy_, solved.pose), matcher_.rows().front().sigma_m, kNormalSigma);
   evidence.support = map_support(expected, solved.information_of_rows, ScanMatcherConfig{}.degeneracy_threshold);
   return evidence;
 }
@@ -73,7 +72,7 @@ MatchEvidence MapLocalizer::evidence_of(const FeatureCloud& stack, const SolveRe
 MapFix MapLocalizer::locate(std::int64_t stamp_ns, const FeatureCloud& stack, const Pose& odometry_from_body) {
   const StopWatch watch;
   const Pose predicted = gate_.expected_map_from_odometry() * odometry_from_body;
-  const SolveResult solved = matcher_.match(stack, prior_at(predicted, gate_.travelled_m()));
+  const SolveResult solved = matcher_.match(stack, prior_at(predicted, gate_));
   const MatchEvidence evidence = evidence_of(stack, solved);
   MapFix fix;
   fix.health = health_of(stamp_ns, Module::kLocalization, solved, predicted, watch.seconds());

@@ -108,8 +108,8 @@ double support_of(const ScanMatcher& matcher, const Fit& found) {
   for (const std::uint32_t i : sample_by_direction(found.overlap.features.planes, kMergePlaneBudget)) {
     planes.push_back(found.overlap.features.planes[i]);
   }
-  return map_support(plane_information(planes, matcher.rows().front().sigma_m), found.solved.information_of_rows,
-                     ScanMatcherConfig{}.degeneracy_threshold);
+  return map_support(plane_information(planes, matcher.rows().front().sigma_m, kNormalSigma),
+                     found.solved.information_of_rows, ScanMatcherConfig{}.degeneracy_threshold);
 }
 
 /// How far off fits from other guesses end that are about as good. One that merely got stuck does not count.

@@ -6,7 +6,6 @@
 #include "estimator/solver/degeneracy.h"
 
 namespace plumbline {
-
 std::vector<FeaturePoint> planes_near(const std::vector<FeaturePoint>& planes, const Occupancy& map,
                                       const Pose& map_from_body) {
   std::vector<FeaturePoint> near;
@@ -15,13 +14,18 @@ std::vector<FeaturePoint> planes_near(const std::vector<FeaturePoint>& planes, c
   return near;
 }
 
-Matrix6d plane_information(const std::vector<FeaturePoint>& planes_in_body, double sigma_m) {
+Matrix6d plane_information(const std::vector<FeaturePoint>& planes_in_body, double sigma_m, double normal_sigma) {
   Matrix6d information = Matrix6d::Zero();
   for (const FeaturePoint& f : planes_in_body) {
     const Eigen::Vector3d normal = f.normal.cast<double>();
     Vector6d row;
     row << f.position.cast<double>().cross(normal), normal;
     information += row * row.transpose();
+    const Eigen::Vector3d across_1 = normal.unitOrthogonal();
+    for (const Eigen::Vector3d& across : {across_1, Eigen::Vector3d(normal.cross(across_1))}) {
+      row << f.position.cast<double>().cross(across), across;
+      information -= normal_sigma * normal_sigma * row * row.transpose();
+    }
   }
   return information / (sigma_m * sigma_m);
 }

@@ -11,8 +11,12 @@ namespace plumbline {
 std::vector<FeaturePoint> planes_near(const std::vector<FeaturePoint>& planes, const Occupancy& map,
                                       const Pose& map_from_body);
 
-/// J^T J about the body's pose of planes that all lie on a map.
-Matrix6d plane_information(const std::vector<FeaturePoint>& planes_in_body, double sigma_m);
+/// [rad] Normals of rough ground that beams graze scatter by so much. Their scatter alone would look like knowledge of
+/// where on a plain the sensor is.
+inline constexpr double kNormalSigma = 0.1;
+
+/// J^T J about the body's pose of planes that all lie on a map, less what scatter of their normals adds to it.
+Matrix6d plane_information(const std::vector<FeaturePoint>& planes_in_body, double sigma_m, double normal_sigma);
 
 /// Of what planes would tell if all lay on the map, the share that the map bears out, along the direction where that is
 /// least. At a wrong place floor and walls may well fit, but what would tell one place along them from another does

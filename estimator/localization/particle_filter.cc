@@ -168,8 +168,8 @@ MapFix ParticleFilter::locate(std::int64_t stamp_ns, const FeatureCloud& stack, 
   fix.match.stamp_ns = stamp_ns;
   fix.match.agreement = gate_.judge(evidence, odometry_from_body);
   fix.match.overlap = evidence.overlap;
-  fix.match.support = map_support(plane_information(planes_near(points, occupancy_, mean), kSigma_m),
-                                  plane_information(on_map, kSigma_m), kLeastInformation);
+  fix.match.support = map_support(plane_information(planes_near(points, occupancy_, mean), kSigma_m, kNormalSigma),
+                                  plane_information(on_map, kSigma_m, 0.0), kLeastInformation);
   fix.match.correction_rad = correction.head<3>().norm();
   fix.match.correction_m = correction.tail<3>().norm();
   fix.match.iterations = 1;

@@ -197,7 +197,7 @@ void Vloam::refine_with_scan(const LidarScan& scan, const DeskewedScan& deskewed
   const Eigen::Vector3d step_in_world = world_from_body.translation - last_scan_position_;
   path_m_ += step_in_world.norm();
   last_scan_position_ = world_from_body.translation;
-  matcher_.insert(features, filter_->map_from_body(), path_m_);
+  matcher_.insert(features, filter_->map_from_body(), path_m_, world_from_body);
   renew_map(world_from_body.rotation.conjugate() * step_in_world);
   report(scan.end_ns, Module::kLidar, solved, predicted, 0.0);
 }

@@ -245,6 +245,26 @@ TEST(ScanMatcher, NothingOlderThanTheMemoryIsMatched) {
   EXPECT_EQ(matcher.map().size(), points);
 }
 
+/// Where gravity has told that the map is bent, the estimate no longer lies where the map has it. Who draws, colours or
+/// localizes on the map does so by the estimate.
+TEST(ScanMatcher, RecordsTheMapWhereTheEstimateIs) {
+  RandomStream noise(8, "lidar");
+  const FeatureCloud scan = still_scan(testing::furnished_room(), at(0.0), noise);
+  const auto lowest = [](const ScanMatcher& matcher) {
+    float z = 0.0F;
+    for (const MapPoint& point : matcher.map()) z = std::min(z, point.position.z());
+    return z;
+  };
+  ScanMatcher straight(calibration(), {}, true);
+  straight.insert(scan, at(0.0), 0.0);
+  ScanMatcher bent(calibration(), {}, true);
+  Pose in_map = at(0.0);
+  in_map.translation.z() += 4.0;
+  bent.insert(scan, in_map, 0.0, at(0.0));
+  EXPECT_EQ(lowest(bent), lowest(straight));
+  EXPECT_EQ(bent.match(scan, loose(in_map)).spectrum.well_conditioned, 6);
+}
+
 TEST(ScanMatcher, IsDeterministic) {
   const auto run = [] {
     RandomStream noise(9, "lidar");
