@@ -6,7 +6,7 @@ namespace {
 constexpr double kLeastOverlap = 0.35;
 constexpr double kLeastInliers = 0.85;
 
-// A start is known to a metre and ten degrees, two sigma; after that, odometry's drift at four sigma.
+// A start is known to a metre and ten degrees; after that, odometry's drift at four sigma.
 constexpr double kStart_m = 1.0;
 constexpr double kStart_rad = 0.17;
 constexpr double kSigmas = 4.0;
@@ -29,16 +29,6 @@ bool AgreementGate::confirms(const Pose& map_from_body, const Pose& odometry_fro
   if (!candidate_) return false;
   const Vector6d apart = (*candidate_ * odometry_from_body).local(map_from_body);
   return apart.tail<3>().norm() < kSame_m && apart.head<3>().norm() < kSame_rad;
-}
-
-double AgreementGate::translation_sigma() const {
-  const double start_m = localized_ || candidate_ ? 0.0 : 0.5 * kStart_m;
-  return start_m + OdometryDrift{}.translation_sigma(travelled_m_);
-}
-
-double AgreementGate::rotation_sigma() const {
-  const double start_rad = localized_ || candidate_ ? 0.0 : 0.5 * kStart_rad;
-  return start_rad + OdometryDrift{}.rotation_sigma(travelled_m_);
 }
 
 bool AgreementGate::too_far(const Pose& map_from_body, const Pose& odometry_from_body) const {

@@ -44,9 +44,6 @@ class AgreementGate {
   const Pose& map_from_odometry() const { return held_; }
   /// Where the next match had best look: as above, or where an unconfirmed one was.
   const Pose& expected_map_from_odometry() const { return candidate_ ? *candidate_ : held_; }
-  /// One sigma of how far off the next match may be.
-  double translation_sigma() const;
-  double rotation_sigma() const;
   /// Distance travelled since the last match that was believed [m].
   double travelled_m() const { return travelled_m_; }
   bool localized() const { return localized_; }

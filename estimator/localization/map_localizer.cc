@@ -30,11 +30,12 @@ ScanMatcherConfig stack_matcher_config() {
   return config;
 }
 
-/// As the matcher weighs it, to whom each row is of one error of its own.
-PosePrior prior_at(const Pose& predicted, const AgreementGate& gate) {
+PosePrior prior_at(const Pose& predicted, double travelled_m) {
+  const OdometryDrift drift;
   Vector6d sigma;
-  sigma << Eigen::Vector3d::Constant(gate.rotation_sigma()), Eigen::Vector3d::Constant(gate.translation_sigma());
-  return {predicted, (sigma.cwiseAbs2() / kInflation).asDiagonal()};
+  sigma << Eigen::Vector3d::Constant(drift.rotation_sigma(travelled_m)),
+      Eigen::Vector3d::Constant(drift.translation_sigma(travelled_m));
+  return {predicted, sigma.cwiseAbs2().asDiagonal()};
 }
 
 Matrix6d covariance_of(const SolveResult& solved) {
@@ -72,7 +73,7 @@ MatchEvidence MapLocalizer::evidence_of(const FeatureCloud& stack, const SolveRe
 MapFix MapLocalizer::locate(std::int64_t stamp_ns, const FeatureCloud& stack, const Pose& odometry_from_body) {
   const StopWatch watch;
   const Pose predicted = gate_.expected_map_from_odometry() * odometry_from_body;
-  const SolveResult solved = matcher_.match(stack, prior_at(predicted, gate_));
+  const SolveResult solved = matcher_.match(stack, prior_at(predicted, gate_.travelled_m()));
   const MatchEvidence evidence = evidence_of(stack, solved);
   MapFix fix;
   fix.health = health_of(stamp_ns, Module::kLocalization, solved, predicted, watch.seconds());

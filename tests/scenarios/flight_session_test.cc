@@ -63,11 +63,13 @@ class FlightSession : public ::testing::Test {
     return load_scenario(files_.write("mission.yaml", kMission), overrides, {});
   }
 
-  static RunRecord fly(const Scenario& scenario, int threads = 2, const SpoiltEstimator::Spoil& spoil = {}) {
+  static RunRecord fly(const Scenario& scenario, int threads = 2, const SpoiltEstimator::Spoil& spoil = {},
+                       const std::optional<Pose>& world_from_estimate = std::nullopt) {
     const World world = make_world(scenario);
     const RayScene rays(world);
     SessionOptions options;
     options.threads = threads;
+    options.world_from_estimate = world_from_estimate;
     if (!spoil) return run_session(scenario, world, rays, options);
     SpoiltEstimator estimator(make_estimator(scenario.estimator_name, calibration_of(scenario.rig), scenario.estimator),
                               spoil);
@@ -172,6 +174,22 @@ TEST_F(FlightSession, GoesWhereAWrongEstimateLeadsIt) {
   // What is left without the estimate's error is the control's: 0.5 m/s of drift that its velocity does not show, by
   // the ratio of the controller's gains, 6 / 12 s, and the wind's 5 cm.
   EXPECT_LT((last.flown - last.wanted + last.estimate_error).norm(), 0.25 + 0.1);
+}
+
+// The estimate's world laid 0.4 m further left than it lies, as a map may be: what is flown is the mission on the map.
+TEST_F(FlightSession, OnAMapItsMissionIsWhereTheMapLies) {
+  const Scenario scenario = load();
+  const World world = make_world(scenario);
+  Pose world_from_estimate = world_from_imu_at_start(scenario, world, RayScene(world));
+  const Pose start = world_from_estimate;
+  const auto on_map = [&start](Odometry& output) { output.world_from_body = start * output.world_from_body; };
+  world_from_estimate = {Eigen::Quaterniond::Identity(), {0.0, 0.4, 0.0}};
+  // The pack looks 20 degrees down, and dead reckoning begins level.
+  const RunRecord record = fly(scenario, 2, on_map, world_from_estimate);
+  ASSERT_FALSE(record.flight->samples.empty());
+  const FlightSample& last = record.flight->samples.back();
+  EXPECT_NEAR(last.estimate_error.y(), 0.4, 0.05);
+  EXPECT_NEAR((last.flown - last.wanted).y(), -0.4, 0.1);
 }
 
 TEST_F(FlightSession, AnEstimateThatIsNoNumberIsNotFlownOn) {

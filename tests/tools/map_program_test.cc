@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/tools/program_fixture.h"
+#include "tools/formats/tum.h"
 
 namespace plumbline {
 namespace {
@@ -52,6 +53,29 @@ TEST_F(MapProgram, ARunIsLocalizedOnTheMapOfAnother) {
   EXPECT_THAT(content("said.txt"), HasSubstr("second/map.ply on first/map.ply: "));
   EXPECT_FALSE(exists("wrong.ply"));
   EXPECT_FALSE(exists("wrong.png"));
+}
+
+/// Elsewhere on the survey's way and facing the other way, from a start that the run is told.
+TEST_F(MapProgram, ARunIsLocalizedOnTheMapOfItsSurvey) {
+  directory_.write("localized.yaml",
+                   "base: walk.yaml\n"
+                   "motion: {rest_s: 1, smoothing_s: 0.5, waypoints: [[12, 4.75, 1.5], [7, 4.75, 1.5]]}\n"
+                   "localization: {survey: walk.yaml}\n");
+  ASSERT_EQ(call("run localized.yaml --seed 2 --out localized"), 0) << content("said.txt");
+  const nlohmann::json localization = result("localized").at("localization");
+  EXPECT_THAT(std::string(localization.at("map")), HasSubstr("walk.yaml"));
+  EXPECT_EQ(localization.at("localized_at_end"), true);
+  // On the survey's map the estimate's world is the site's: the last pose is the true one to centimetres.
+  const std::vector<PoseTrack::Stamped> estimate = read_tum(directory_.path() / "localized" / "estimate.tum");
+  const std::vector<PoseTrack::Stamped> truth = read_tum(directory_.path() / "localized" / "ground_truth.tum");
+  EXPECT_LT((estimate.back().pose.translation - truth.back().pose.translation).norm(), 0.1);
+
+  directory_.write("again.yaml", "base: walk.yaml\nlocalization: {survey: localized.yaml}\n");
+  EXPECT_EQ(call("run again.yaml --out again"), 2);
+  EXPECT_THAT(content("said.txt"), HasSubstr("a survey is neither localized nor flown in closed loop"));
+  directory_.write("none.yaml", "base: walk.yaml\nlocalization: {survey: nowhere.yaml}\n");
+  EXPECT_EQ(call("run none.yaml --out none"), 2);
+  EXPECT_THAT(content("said.txt"), HasSubstr("localization.survey"));
 }
 
 TEST_F(MapProgram, AMapThatCannotBeUsedIsBadInput) {

@@ -5,6 +5,7 @@
 
 #include <cstring>
 #include <fstream>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -104,6 +105,30 @@ TEST_F(PointCloudFile, OurOwnMapComesBackWithItsNormalsAndEdges) {
   EXPECT_EQ(map.surfaces.planes.front().normal, wall.normal);
   ASSERT_EQ(map.surfaces.edges.size(), 1u);
   EXPECT_EQ(map.surfaces.edges.front().position, edge.position);
+}
+
+TEST_F(PointCloudFile, AMapIsLaidOnItsSiteWhereItSaysWhere) {
+  MapPoint wall{{1.0F, 0.0F, 0.0F}, 0.5F};
+  wall.normal = {-1.0F, 0.0F, 0.0F};
+  const auto path = directory_.path() / "map.ply";
+  write_ply(path.string(), {wall});
+  EXPECT_FALSE(read_prior_map(path, /*lay_on_site=*/true).on_site);
+  write_place_on_site(path, {rotation_from_rpy({0.0, 0.0, 0.5 * std::numbers::pi}), {10.0, 20.0, 30.0}});
+
+  const SitedMap own = read_prior_map(path);
+  EXPECT_FALSE(own.on_site);
+  EXPECT_EQ(own.map.surfaces.planes.front().position, wall.position);
+  const SitedMap sited = read_prior_map(path, /*lay_on_site=*/true);
+  EXPECT_TRUE(sited.on_site);
+  EXPECT_TRUE(sited.map.surfaces.planes.front().position.isApprox(Eigen::Vector3f(10.0F, 21.0F, 30.0F), 1e-5F));
+  EXPECT_TRUE(sited.map.surfaces.planes.front().normal.isApprox(Eigen::Vector3f(0.0F, -1.0F, 0.0F), 1e-5F));
+
+  const std::string rest =
+      "element vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n";
+  const std::string begin = "ply\nformat ascii 1.0\ncomment site_from_cloud ";
+  EXPECT_THAT(complaint("few.ply", begin + "0 0 0\n" + rest), HasSubstr("site_from_cloud has not seven numbers"));
+  EXPECT_THAT(complaint("nan.ply", begin + "0 0 nan 0 0 0 1\n" + rest), HasSubstr("found 'nan' in site_from_cloud"));
+  EXPECT_THAT(complaint("long.ply", begin + "0 0 0 0 0 0 2\n" + rest), HasSubstr("not of length one"));
 }
 
 TEST_F(PointCloudFile, SaysWhatItCannotUse) {
