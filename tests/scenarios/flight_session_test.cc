@@ -180,12 +180,16 @@ TEST_F(FlightSession, GoesWhereAWrongEstimateLeadsIt) {
 TEST_F(FlightSession, OnAMapItsMissionIsWhereTheMapLies) {
   const Scenario scenario = load();
   const World world = make_world(scenario);
-  Pose world_from_estimate = world_from_imu_at_start(scenario, world, RayScene(world));
-  const Pose start = world_from_estimate;
-  const auto on_map = [&start](Odometry& output) { output.world_from_body = start * output.world_from_body; };
-  world_from_estimate = {Eigen::Quaterniond::Identity(), {0.0, 0.4, 0.0}};
-  // The pack looks 20 degrees down, and dead reckoning begins level.
-  const RunRecord record = fly(scenario, 2, on_map, world_from_estimate);
+  // Dead reckoning's world begins level, at the start and facing as the craft does.
+  const Pose start = world_from_imu_at_start(scenario, world, RayScene(world));
+  const Eigen::Vector3d yaw{0.0, 0.0, rpy_from_rotation(start.rotation).z()};
+  const Pose map_from_own{rotation_from_rpy(yaw), start.translation};
+  const auto on_map = [&map_from_own](Odometry& output) {
+    output.world_from_body = map_from_own * output.world_from_body;
+    output.velocity_in_world = map_from_own.rotation * output.velocity_in_world;
+  };
+  const Pose world_from_map{Eigen::Quaterniond::Identity(), {0.0, 0.4, 0.0}};
+  const RunRecord record = fly(scenario, 2, on_map, world_from_map);
   ASSERT_FALSE(record.flight->samples.empty());
   const FlightSample& last = record.flight->samples.back();
   EXPECT_NEAR(last.estimate_error.y(), 0.4, 0.05);

@@ -17,9 +17,10 @@ constexpr double kMostRate_hz = 20.0;
 
 Pose start_of(const MapArguments& arguments, const SitedMap& map, const std::optional<Pose>& site_from_start) {
   if (arguments.start.empty()) {
-    if (!map.on_site || !site_from_start) return {};
-    return {rotation_from_rpy({0.0, 0.0, rpy_from_rotation(site_from_start->rotation).z()}),
-            site_from_start->translation};
+    if (!map.site_from_map || !site_from_start) return {};
+    // Level on its site, as odometry begins level, whichever way the map leans.
+    const Eigen::Vector3d yaw{0.0, 0.0, rpy_from_rotation(site_from_start->rotation).z()};
+    return map.site_from_map->inverse() * Pose{rotation_from_rpy(yaw), site_from_start->translation};
   }
   const auto& s = arguments.start;
   return {rotation_from_rpy({0.0, 0.0, s[3] * std::numbers::pi / 180.0}), {s[0], s[1], s[2]}};
@@ -58,9 +59,9 @@ void add_map_options(CLI::App& verb, MapArguments& arguments) {
       ->needs(map);
 }
 
-std::optional<SitedMap> map_of(const MapArguments& arguments, bool on_site) {
+std::optional<SitedMap> map_of(const MapArguments& arguments) {
   if (arguments.map.empty()) return std::nullopt;
-  return read_prior_map(arguments.map, on_site);
+  return read_prior_map(arguments.map);
 }
 
 std::unique_ptr<Estimator> localize(std::unique_ptr<Estimator> odometry, const SitedMap& map,

@@ -22,8 +22,7 @@ struct MapArguments {
 void add_map_options(CLI::App& verb, MapArguments& arguments);
 
 /// The map that was asked for, if one was. @throws InputError
-/// @param on_site  where the run, too, is in the site's frame
-std::optional<SitedMap> map_of(const MapArguments& arguments, bool on_site);
+std::optional<SitedMap> map_of(const MapArguments& arguments);
 
 /// An odometry localized on a map. @throws InputError if that has nothing within the lidar's reach of the start
 /// @param site_from_start  where the run begins, if that is known: without --map-start it tells where on a map that

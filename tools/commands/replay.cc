@@ -56,7 +56,7 @@ int replay(const ReplayArguments& arguments) {
   if (!dataset.has_imu) scenario.estimator.imu_enabled = false;
   auto estimator =
       open_estimator(scenario.estimator_name, scenario.estimator_directory, dataset.calibration, scenario.estimator);
-  if (const auto map = map_of(arguments.map, /*on_site=*/false)) {
+  if (const auto map = map_of(arguments.map)) {
     estimator = localize(std::move(estimator), *map, arguments.map, dataset.calibration, scenario.estimator);
   }
   const int threads = threads_of(arguments.threads);

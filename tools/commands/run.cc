@@ -47,7 +47,7 @@ SessionOptions options_with(ProgressLine& line, int threads) {
 /// What the run is localized on: the map asked for, or one that the scenario's survey makes first.
 std::optional<SitedMap> prior_map(const RunArguments& arguments, const Scenario& scenario, const World& world,
                                   const RayScene& rays, int threads) {
-  if (std::optional<SitedMap> map = map_of(arguments.map, /*on_site=*/true)) return map;
+  if (std::optional<SitedMap> map = map_of(arguments.map)) return map;
   if (!scenario.survey) return std::nullopt;
   const Scenario survey = survey_of(scenario);
   ProgressLine line(survey.name);
@@ -69,7 +69,7 @@ RunRecord simulate(const RunArguments& arguments, const Scenario& scenario, cons
   try {
     auto estimator = open_estimator(scenario);
     if (map) {
-      if (map->on_site) options.world_from_estimate = Pose{};
+      options.world_from_estimate = map->site_from_map;
       estimator = localize(std::move(estimator), *map, arguments.map, calibration_of(scenario.rig), scenario.estimator,
                            world_from_imu_at_start(scenario, world, rays));
     }

@@ -24,13 +24,9 @@ SitedMap make_survey(const Scenario& survey, const World& world, const RayScene&
     throw InputError(survey.path.string() + ": as a survey it left no map" +
                      (record.fault.empty() ? "" : ": " + record.fault));
   }
-  const Pose site_from_map = place_on_site(pairs);
   PriorMapBuilder builder(/*has_normals=*/true);
-  for (const MapPoint& point : record.map) {
-    builder.add(site_from_map * point.position.cast<double>(), site_from_map.rotation.cast<float>() * point.normal,
-                point.intensity);
-  }
-  return {builder.build(), /*on_site=*/true};
+  for (const MapPoint& point : record.map) builder.add(point.position.cast<double>(), point.normal, point.intensity);
+  return {builder.build(), place_on_site(pairs)};
 }
 
 }  // namespace plumbline

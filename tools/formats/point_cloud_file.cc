@@ -262,21 +262,16 @@ void read_point_cloud(const fs::path& path, const CloudListener& listener) {
   }
 }
 
-SitedMap read_prior_map(const fs::path& path, bool lay_on_site) {
+SitedMap read_prior_map(const fs::path& path) {
   std::optional<PriorMapBuilder> builder;
-  Pose site_from_map;
-  bool on_site = false;
+  std::optional<Pose> site_from_map;
   read_point_cloud(path, {[&](const CloudHeader& header) {
                             builder.emplace(header.has_normals);
-                            on_site = lay_on_site && header.site_from_cloud.has_value();
-                            if (on_site) site_from_map = *header.site_from_cloud;
+                            site_from_map = header.site_from_cloud;
                           },
-                          [&](const CloudPoint& p) {
-                            const Eigen::Vector3f normal = site_from_map.rotation.cast<float>() * p.normal;
-                            builder->add(site_from_map * p.position, normal, p.intensity);
-                          }});
+                          [&](const CloudPoint& p) { builder->add(p.position, p.normal, p.intensity); }});
   try {
-    return {builder->build(), on_site};
+    return {builder->build(), site_from_map};
   } catch (const std::invalid_argument& error) {
     throw InputError(path.string() + ": " + error.what());
   }

@@ -33,14 +33,13 @@ struct CloudListener {
 /// @throws InputError naming the file, what was found and what is allowed
 void read_point_cloud(const std::filesystem::path& path, const CloudListener& listener);
 
-/// A map to localize on, in its own frame or in its site's.
+/// A map to localize on.
 struct SitedMap {
   PriorMap map;
-  bool on_site = false;
+  std::optional<Pose> site_from_map;  ///< if it says where it lies on its site
 };
-/// @param lay_on_site  if it says where it lies there
 /// @throws InputError, also for a map without usable points
-SitedMap read_prior_map(const std::filesystem::path& path, bool lay_on_site = false);
+SitedMap read_prior_map(const std::filesystem::path& path);
 
 /// Says in a PLY where it lies on its site, in a header line that other readers skip:
 /// `comment site_from_cloud X Y Z QX QY QZ QW`. @throws std::runtime_error if the file cannot be written

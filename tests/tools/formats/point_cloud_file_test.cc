@@ -5,7 +5,6 @@
 
 #include <cstring>
 #include <fstream>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -107,21 +106,18 @@ TEST_F(PointCloudFile, OurOwnMapComesBackWithItsNormalsAndEdges) {
   EXPECT_EQ(map.surfaces.edges.front().position, edge.position);
 }
 
-TEST_F(PointCloudFile, AMapIsLaidOnItsSiteWhereItSaysWhere) {
-  MapPoint wall{{1.0F, 0.0F, 0.0F}, 0.5F};
-  wall.normal = {-1.0F, 0.0F, 0.0F};
+TEST_F(PointCloudFile, AMapSaysWhereItLiesOnItsSite) {
+  const MapPoint corner{{1.0F, 0.0F, 0.0F}, 0.5F};
   const auto path = directory_.path() / "map.ply";
-  write_ply(path.string(), {wall});
-  EXPECT_FALSE(read_prior_map(path, /*lay_on_site=*/true).on_site);
-  write_place_on_site(path, {rotation_from_rpy({0.0, 0.0, 0.5 * std::numbers::pi}), {10.0, 20.0, 30.0}});
-
-  const SitedMap own = read_prior_map(path);
-  EXPECT_FALSE(own.on_site);
-  EXPECT_EQ(own.map.surfaces.planes.front().position, wall.position);
-  const SitedMap sited = read_prior_map(path, /*lay_on_site=*/true);
-  EXPECT_TRUE(sited.on_site);
-  EXPECT_TRUE(sited.map.surfaces.planes.front().position.isApprox(Eigen::Vector3f(10.0F, 21.0F, 30.0F), 1e-5F));
-  EXPECT_TRUE(sited.map.surfaces.planes.front().normal.isApprox(Eigen::Vector3f(0.0F, -1.0F, 0.0F), 1e-5F));
+  write_ply(path.string(), {corner});
+  EXPECT_FALSE(read_prior_map(path).site_from_map);
+  const Pose place{rotation_from_rpy({0.1, 0.0, 2.0}), {10.0, -20.0, 1.0 / 3.0}};
+  write_place_on_site(path, place);
+  const SitedMap map = read_prior_map(path);
+  ASSERT_TRUE(map.site_from_map);
+  EXPECT_EQ(map.site_from_map->translation, place.translation);
+  EXPECT_LT(map.site_from_map->rotation.angularDistance(place.rotation), 1e-15);
+  EXPECT_EQ(map.map.thinned.front().position, corner.position);
 
   const std::string rest =
       "element vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n";
