@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <utility>
 
 #include "estimator/lidar/correspondence.h"
@@ -28,7 +29,7 @@ constexpr double kSearchAgain_rad = 0.003;
 // A data sheet's accuracy does not say how much of it averages out. A quarter of its variance is taken for a bias that
 // all returns share, a quarter for one of each ring; a match solves for a ring's whole bias.
 constexpr double kBiasShare = 0.5;
-const double kWholeBias = std::sqrt(2.0);
+constexpr double kWholeBias = std::numbers::sqrt2;
 
 // What biases of single rings bend, they go on bending the same way while the scene keeps its kind: over 200 m of
 // tunnel or of flight above a field.
@@ -237,8 +238,8 @@ class MapConstraints {
     const Eigen::Vector3d normal = world_from_body.rotation * feature.normal.cast<double>();
     NearestSamples nearest(kPlaneNeighbours, reach_of(feature), normal.cast<float>());
     planes_.nearest(world_from_body * point, reach_of(feature), nearest);
-    if (const auto plane = fit_plane(nearest, plane_limits_))
-      plane_matches_.push_back({point, beam_to(point), *plane, feature.laser});
+    const auto plane = fit_plane(nearest, plane_limits_);
+    if (plane) plane_matches_.push_back({point, beam_to(point), *plane, feature.laser});
   }
 
   void match_line(const FeaturePoint& feature, const Pose& world_from_body) {
