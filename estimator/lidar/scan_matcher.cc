@@ -296,7 +296,7 @@ SolveResult ScanMatcher::match(const FeatureCloud& features, const PosePrior& wo
                              m.body_from_lidar.translation, used);
   m.rows.clear();
   std::size_t planes = 0;
-  const SolveResult solved = solve(
+  SolveResult solved = solve(
       world_from_body.mean, world_from_body,
       [&](const Pose& pose, ResidualRows& rows) {
         constraints.linearize(pose, rows);
