@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "estimator/localization/map_support.h"
+#include "sim/random_stream.h"
 #include "tests/estimator/localization_world.h"
 
 namespace plumbline {
@@ -59,6 +60,20 @@ TEST(MapSupport, IsTheLeastShareOverTheDirectionsThatCount) {
   found(5, 5) = 0.0;
   EXPECT_NEAR(map_support(expected, found, 5000.0), 0.2, 1e-12);
   EXPECT_EQ(map_support(Matrix6d::Zero(), found, 5000.0), 0.0);
+}
+
+/// A field from the air: its bumps lean normals by some degrees, and that says nothing of where above it one is.
+TEST(MapSupport, TheScatterOfNormalsIsNoKnowledge) {
+  RandomStream random(1, "field");
+  std::vector<FeaturePoint> field(2000);
+  for (FeaturePoint& f : field) {
+    f.position = Eigen::Vector3d(random.uniform(-20.0, 20.0), random.uniform(-20.0, 20.0), -20.0).cast<float>();
+    f.normal = Eigen::Vector3d(0.05 * random.gaussian(), 0.05 * random.gaussian(), 1.0).normalized().cast<float>();
+  }
+  constexpr double kThreshold = 5000.0;
+  EXPECT_GT(plane_information(field, 0.02, 0.0)(3, 3), kThreshold);
+  EXPECT_LT(plane_information(field, 0.02, kNormalSigma)(3, 3), kThreshold);
+  EXPECT_GT(plane_information(field, 0.02, kNormalSigma)(5, 5), 100.0 * kThreshold);
 }
 
 }  // namespace
