@@ -45,8 +45,8 @@ void check_start(const std::string& path, const PriorMap& map, const Eigen::Vect
 void add_map_options(CLI::App& verb, MapArguments& arguments) {
   CLI::Option* map = verb.add_option("--map", arguments.map, "localize on this map (PLY or PCD, metres, z up)");
   verb.add_option("--map-start", arguments.start,
-                  "X Y Z YAW_DEG: where the run begins on the map; 0 0 0 0 by default, or in a simulated site where "
-                  "the pad is on a map of it")
+                  "X Y Z YAW_DEG: where the run begins on the map; by default where a simulated run does on a map that "
+                  "says where it lies on its site, otherwise 0 0 0 0")
       ->expected(4)
       ->check(CLI::Range(-1e4, 1e4))
       ->needs(map);

@@ -70,8 +70,11 @@ RunRecord simulate(const RunArguments& arguments, const Scenario& scenario, cons
     auto estimator = open_estimator(scenario);
     if (map) {
       options.world_from_estimate = map->site_from_map;
-      estimator = localize(std::move(estimator), *map, arguments.map, calibration_of(scenario.rig), scenario.estimator,
-                           world_from_imu_at_start(scenario, world, rays));
+      // The whole motion may have to be simulated for it.
+      std::optional<Pose> start;
+      if (arguments.map.start.empty() && map->site_from_map) start = world_from_imu_at_start(scenario, world, rays);
+      estimator =
+          localize(std::move(estimator), *map, arguments.map, calibration_of(scenario.rig), scenario.estimator, start);
     }
     RunRecord record = run_session(scenario, world, rays, options, *estimator);
     record.prior_map = !map ? "" : !arguments.map.map.empty() ? arguments.map.map : scenario.survey->string();

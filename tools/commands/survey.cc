@@ -1,5 +1,7 @@
 #include "tools/commands/survey.h"
 
+#include <stdexcept>
+
 #include "scenarios/input_error.h"
 #include "sim/random_stream.h"
 #include "tools/evaluation/alignment.h"
@@ -7,6 +9,7 @@
 #include "tools/outside/open_estimator.h"
 
 namespace plumbline {
+
 Scenario survey_of(const Scenario& scenario) {
   Scenario survey = load_scenario(*scenario.survey, {}, derive_seed(scenario.seed, "survey"));
   survey.world = scenario.world;
@@ -24,9 +27,13 @@ SitedMap make_survey(const Scenario& survey, const World& world, const RayScene&
     throw InputError(survey.path.string() + ": as a survey it left no map" +
                      (record.fault.empty() ? "" : ": " + record.fault));
   }
-  PriorMapBuilder builder(/*has_normals=*/true);
-  for (const MapPoint& point : record.map) builder.add(point.position.cast<double>(), point.normal, point.intensity);
-  return {builder.build(), place_on_site(pairs)};
+  try {
+    PriorMapBuilder builder(/*has_normals=*/true);
+    for (const MapPoint& point : record.map) builder.add(point.position.cast<double>(), point.normal, point.intensity);
+    return {builder.build(), place_on_site(pairs)};
+  } catch (const std::invalid_argument& error) {
+    throw InputError(survey.path.string() + ": as a survey: " + error.what());
+  }
 }
 
 }  // namespace plumbline

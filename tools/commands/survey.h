@@ -10,7 +10,7 @@ namespace plumbline {
 Scenario survey_of(const Scenario& scenario);
 
 /// Runs a survey. Its map is laid on the site as surveyors do it, by points along the way whose places are known and by
-/// the vertical: the one rigid transform that fits them best. @throws InputError if it leaves no map
+/// the vertical: the one rigid transform that fits them best. @throws InputError if it leaves no map that can be used
 SitedMap make_survey(const Scenario& survey, const World& world, const RayScene& rays, const SessionOptions& options);
 
 }  // namespace plumbline

@@ -124,7 +124,7 @@ constexpr char kPlaceOnSite[] = "site_from_cloud";
 constexpr double kFarthestSite_m = 1e7;
 
 /// A header's `comment site_from_cloud X Y Z QX QY QZ QW`.
-Pose place_on_site(const std::vector<std::string>& words) {
+Pose read_place(const std::vector<std::string>& words) {
   std::array<double, 7> v{};
   if (words.size() != v.size() + 2) refuse("site_from_cloud has not seven numbers");
   for (std::size_t i = 0; i < v.size(); ++i) {
@@ -148,7 +148,7 @@ void read_ply(std::istream& file, const CloudListener& listener) {
   for_each_header_line(file, "end_header", [&](const std::vector<std::string>& words) {
     if (words.front() == "format" && words.size() >= 2) format = words[1];
     if (words.front() == "comment" && words.size() >= 2 && words[1] == kPlaceOnSite) {
-      header.site_from_cloud = place_on_site(words);
+      header.site_from_cloud = read_place(words);
     }
     if (words.front() == "element" && words.size() == 3) {
       element = words[1];
