@@ -266,7 +266,7 @@ std::optional<MapDepth> DepthMap::Impl::intersect(const Triangle& triangle, cons
   const DepthNoise& noise = a.source == DepthSource::kLidar ? config.lidar : kDepthImageNoise;
   const double sigma = std::sqrt(std::pow(noise.at(depth), 2) + std::pow(depth * kRegistrationAngle * tangent, 2) +
                                  std::pow(kCurvatureShare * static_cast<double>(depth_spread_of(triangle)), 2));
-  return MapDepth{{1.0 / depth, sigma / (depth * depth)}, a.source};
+  return MapDepth{{1.0 / depth, sigma / (depth * depth)}, normal / p.dot(normal), a.source};
 }
 
 std::size_t DepthMap::points_in_view() const { return impl_->view.angles.size(); }

@@ -33,6 +33,7 @@ struct DepthMapConfig {
 
 struct MapDepth {
   InverseDepth depth;
+  Eigen::Vector3d plane = Eigen::Vector3d::Zero();  ///< the surface's: plane . X = 1 for its points X in the view [1/m]
   DepthSource source = DepthSource::kLidar;
 };
 

@@ -12,9 +12,10 @@ namespace plumbline {
 namespace {
 
 constexpr int kOutlierFramesToDrop = 3;
-/// Patches are compared with their anchor as they were, so a new anchor is due before scale or roll deform them much.
-constexpr double kAnchorMaxScaleChange = 0.08;
-constexpr double kAnchorMaxRoll = 0.1;      // [rad]
+/// The tracker comes near a patch by shifting it, so a new anchor is due before scale, roll or slant deform it much.
+constexpr double kAnchorMaxChange = 0.08;
+constexpr double kMostAreaChange = 4.0;     // of a patch: beyond it the plane or the motion is wrong
+constexpr double kPlaceSigma_px = 0.1;      // of a track: interpolation, the lens's calibration
 constexpr double kDepthImagePause_s = 0.1;  // between depth images used: the map keeps seconds of them
 constexpr double kLeastShareOfSigma = 0.5;
 // Of a triangulated depth: what the motions it was measured with had wrong in common, which no averaging cuts. Against
@@ -40,14 +41,26 @@ TrackedFeature::Depth shown_depth(DepthSource source) {
   }
 }
 
-double scale_of(const CameraMotion& motion, const Feature& feature) {
-  return (motion.camera_from_keyframe_rotation * feature.sighting.keyframe_ray +
-          feature.sighting.depth.mean * motion.camera_from_keyframe_translation)
-      .z();
+/// d pixel d reference pixel at a feature: its surface's homography, R + t plane^T. How a lens's distortion differs
+/// between the two places is left out.
+Eigen::Matrix2d shape_of(const CameraMotion& motion, const CameraIntrinsics& camera, const Feature& feature) {
+  const Eigen::Matrix3d now_from_reference =
+      motion.camera_from_keyframe_rotation + motion.camera_from_keyframe_translation * feature.plane.transpose();
+  const Eigen::Vector3d h = now_from_reference * feature.sighting.keyframe_ray;
+  const Eigen::Matrix2d shape = d_pixel_d_point(camera, h) * now_from_reference.leftCols<2>() *
+                                Eigen::Vector2d(1.0 / camera.fx, 1.0 / camera.fy).asDiagonal();
+  const double area = shape.determinant();
+  const bool sensible = h.z() > kLeastDepthRatio && area > 1.0 / kMostAreaChange && area < kMostAreaChange;
+  return sensible ? shape : Eigen::Matrix2d::Identity();
 }
 
-double roll_of(const CameraMotion& motion) {
-  return std::atan2(motion.camera_from_keyframe_rotation(1, 0), motion.camera_from_keyframe_rotation(0, 0));
+Eigen::Vector3d facing_plane(const InverseDepth& depth) { return depth.mean * Eigen::Vector3d::UnitZ(); }
+
+/// plane . X = 1 with X = R^T (X' - t).
+Eigen::Vector3d carried_along(const Eigen::Vector3d& plane, const CameraMotion& motion) {
+  const Eigen::Vector3d turned = motion.camera_from_keyframe_rotation * plane;
+  const double offset = 1.0 + turned.dot(motion.camera_from_keyframe_translation);
+  return offset > kLeastDepthRatio ? Eigen::Vector3d(turned / offset) : Eigen::Vector3d::Zero();
 }
 
 }  // namespace
@@ -75,23 +88,33 @@ std::vector<FeatureSource::Sought> FeatureSet::predict(const Pose& predicted_ref
               f.sighting.depth.mean * from_reference.camera_from_keyframe_translation;
     }
     const bool in_front = point.z() > 0.05;
-    sought.push_back({f.id, f.anchor_pixel, in_front ? image_pixel(camera_, project(camera_, point)) : f.pixel});
+    const Eigen::Matrix2d now_from_anchor = shape_of(from_reference, camera_, f) * f.anchor_shape.inverse();
+    sought.push_back({f.id,
+                      {f.anchor_pixel, in_front ? image_pixel(camera_, project(camera_, point)) : f.pixel,
+                       now_from_anchor.cast<float>()}});
   }
   return sought;
 }
 
 void FeatureSet::track(const Pose& predicted_reference_from_body, const Pose& reference_from_last_body) {
-  const FeatureTracker::Tracks tracks =
+  const std::vector<FeatureTracker::Track> tracks =
       source_.locate(predict(predicted_reference_from_body, reference_from_last_body));
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < tracks.pixels.size(); ++i) {
-    if (tracks.found[i] == 0) continue;
-    features[kept] = features[i];
-    features[kept].pixel = tracks.pixels[i];
-    features[kept++].sighting.pixel = pinhole_pixel(camera_, tracks.pixels[i]);
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    if (!tracks[i].found) continue;
+    Feature& f = features[kept++] = features[i];
+    f.pixel = tracks[i].pixel;
+    f.track_sigma = static_cast<double>(tracks[i].sigma_px);
+    f.sighting.pixel = pinhole_pixel(camera_, f.pixel);
+    f.sighting.pixel_sigma = std::hypot(sigma_of_any_place(), f.track_sigma, f.anchor_sigma);
   }
   features.resize(kept);
 }
+
+/// Of points given, all there is; of tracks, what neither noise nor a patch's look tells: calibration, interpolation.
+double FeatureSet::sigma_of_any_place() const { return shows_images() ? kPlaceSigma_px : config_.point_sigma_px; }
+
+bool FeatureSet::shows_images() const { return source_.image().data != nullptr; }
 
 void FeatureSet::linearize(const Pose& reference_from_body, ResidualRows& rows) const {
   const CameraMotion camera_now = motion(reference_from_body);
@@ -129,19 +152,22 @@ void FeatureSet::renew_anchor(const Pose& reference_from_body) {
   if (features.empty()) return;
   const CameraMotion camera_now = motion(reference_from_body);
   double change = 0.0;
-  for (const Feature& f : features) change += std::abs(scale_of(camera_now, f) / f.anchor_scale - 1.0);
-  change /= static_cast<double>(features.size());
-  if (change < kAnchorMaxScaleChange && std::abs(roll_of(camera_now) - anchor_roll_) < kAnchorMaxRoll) return;
-  anchor_here(reference_from_body);
+  for (const Feature& f : features) {
+    const Eigen::Matrix2d now_from_anchor = shape_of(camera_now, camera_, f) * f.anchor_shape.inverse();
+    change += std::sqrt(0.5) * (now_from_anchor - Eigen::Matrix2d::Identity()).norm();
+  }
+  if (change > kAnchorMaxChange * static_cast<double>(features.size())) anchor_here(reference_from_body);
 }
 
 void FeatureSet::anchor_here(const Pose& reference_from_body) {
   const CameraMotion camera_now = motion(reference_from_body);
   source_.anchor_here();
-  anchor_roll_ = roll_of(camera_now);
   for (Feature& f : features) {
+    const bool at_reference = f.pixel == f.reference_pixel;
+    f.anchor_sigma = at_reference ? 0.0 : std::hypot(f.anchor_sigma, f.track_sigma);
+    f.track_sigma = 0.0;
     f.anchor_pixel = f.pixel;
-    f.anchor_scale = scale_of(camera_now, f);
+    f.anchor_shape = shape_of(camera_now, camera_, f);
   }
 }
 
@@ -155,12 +181,13 @@ double FeatureSet::overlap() const {
 
 void FeatureSet::make_newest_the_reference(const Pose& reference_from_body) {
   const CameraMotion camera_now = motion(reference_from_body);
-  anchor_roll_ -= roll_of(camera_now);
   for (Feature& f : features) {
     f.triangulated = carried_along(f.triangulated, camera_now, f.sighting.keyframe_ray);
-    f.anchor_scale /= std::max(0.05, scale_of(camera_now, f));
+    f.anchor_shape *= shape_of(camera_now, camera_, f).inverse();
+    f.plane = carried_along(f.plane, camera_now);
     f.sighting.keyframe_ray = ray_through(camera_, f.sighting.pixel);
     f.reference_pixel = f.pixel;
+    f.anchor_sigma = f.track_sigma;
   }
 }
 
@@ -175,7 +202,7 @@ void FeatureSet::refill() {
     f.pixel = f.reference_pixel = f.anchor_pixel = fresh.pixel;
     f.sighting.pixel = pinhole_pixel(camera_, fresh.pixel);
     f.sighting.keyframe_ray = ray_through(camera_, f.sighting.pixel);
-    f.sighting.pixel_sigma = std::hypot(config_.pixel_sigma_px, fresh.noise_sigma_px);
+    f.sighting.pixel_sigma = std::hypot(sigma_of_any_place(), fresh.noise_sigma_px);
     f.sighting.depth = kFarAway;
     features.push_back(f);
   }
@@ -209,13 +236,16 @@ void FeatureSet::give_depth(const Pose& world_from_body, std::int64_t reference_
     f.epipolar = false;
     f.depth_source = DepthSource::kNone;
     f.sighting.depth = kFarAway;
+    f.plane.setZero();
     if (const auto depth = depth_map_.depth_along(f.sighting.keyframe_ray)) {
       f.depth_source = depth->source;
       f.sighting.depth = f.triangulated = depth->depth;
+      f.plane = depth->plane;
     } else if (converged(f.triangulated)) {
       f.depth_source = DepthSource::kTriangulated;
       f.sighting.depth = f.triangulated;
       f.sighting.depth.sigma = std::hypot(f.triangulated.sigma, kMotionShare * f.triangulated.mean);
+      f.plane = facing_plane(f.triangulated);
     }
   }
 }
@@ -260,7 +290,7 @@ std::vector<StereoDepth::Feature> FeatureSet::as_seen_by_stereo(const std::vecto
   std::vector<StereoDepth::Feature> seen;
   for (const std::size_t i : indices) {
     const Feature& f = features[i];
-    seen.push_back({f.id, f.pixel, f.sighting.keyframe_ray, f.sighting.pixel_sigma, f.triangulated});
+    seen.push_back({f.id, f.pixel, f.sighting.keyframe_ray, sigma_of_any_place(), f.triangulated});
   }
   return seen;
 }
@@ -274,6 +304,7 @@ void FeatureSet::take_stereo_depths(const std::vector<std::size_t>& indices,
     // Pairs of neighbouring images err alike: averaging many must not pretend otherwise.
     f.triangulated.sigma = std::max(f.triangulated.sigma, kLeastShareOfSigma * depths[k]->sigma);
     f.sighting.depth = f.triangulated;
+    f.plane = facing_plane(f.triangulated);
     f.depth_source = DepthSource::kStereo;
   }
 }

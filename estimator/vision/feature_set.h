@@ -25,8 +25,11 @@ struct Feature {
   Eigen::Vector2f pixel = Eigen::Vector2f::Zero();  ///< now, in the image as it came; so are the next two
   Eigen::Vector2f reference_pixel = Eigen::Vector2f::Zero();
   Eigen::Vector2f anchor_pixel = Eigen::Vector2f::Zero();
-  double anchor_scale = 1.0;  ///< z then over z in the reference, when the anchor was taken
-  InverseDepth triangulated;  ///< in the reference, from its whole track
+  double track_sigma = 0.0;                                    ///< [px] of the pixel, from the anchor's
+  double anchor_sigma = 0.0;                                   ///< [px] of the anchor's pixel, from the reference's
+  Eigen::Matrix2d anchor_shape = Eigen::Matrix2d::Identity();  ///< d pixel d reference pixel when the anchor was taken
+  Eigen::Vector3d plane = Eigen::Vector3d::Zero();             ///< of its surface in the reference, as MapDepth::plane
+  InverseDepth triangulated;                                   ///< in the reference, from its whole track
   DepthSource depth_source = DepthSource::kNone;
   bool epipolar = false;                                    ///< which row kind this image gives
   Eigen::Matrix2d whitening = Eigen::Matrix2d::Identity();  ///< of its reprojection rows, else unused
@@ -37,7 +40,7 @@ struct Feature {
 
 struct FeatureSetConfig {
   CornerOptions corners;
-  double pixel_sigma_px = 0.25;  ///< of a track without image noise: interpolation, changing view
+  double point_sigma_px = 0.25;  ///< of points that someone else found
   double depth_max_age_s = 3.0;
 };
 
@@ -98,6 +101,8 @@ class FeatureSet {
  private:
   std::vector<FeatureSource::Sought> predict(const Pose& predicted_reference_from_body,
                                              const Pose& reference_from_last_body) const;
+  bool shows_images() const;
+  double sigma_of_any_place() const;
   const FurtherCamera* further_camera(int camera_id) const;
   StereoDepth* stereo_with(int camera_id);
   std::vector<std::size_t> without_map_depth() const;
@@ -114,7 +119,6 @@ class FeatureSet {
   DepthMap depth_map_;
   std::optional<std::int64_t> depth_image_ns_;  ///< of the last one used
   std::optional<StereoDepth> stereo_;           ///< made when the first frame of a second grey camera comes
-  double anchor_roll_ = 0.0;
 };
 
 }  // namespace plumbline

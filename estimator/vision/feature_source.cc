@@ -25,25 +25,19 @@ bool FeatureSource::take(const PointFrame& frame) {
   return true;
 }
 
-FeatureTracker::Tracks FeatureSource::locate(const std::vector<Sought>& sought) {
+std::vector<FeatureTracker::Track> FeatureSource::locate(const std::vector<Sought>& sought) {
   if (given_) return locate_given(sought);
-  std::vector<Eigen::Vector2f> anchors;
-  std::vector<Eigen::Vector2f> predicted;
-  anchors.reserve(sought.size());
-  predicted.reserve(sought.size());
-  for (const Sought& s : sought) {
-    anchors.push_back(s.anchor_pixel);
-    predicted.push_back(s.predicted);
-  }
-  return tracker_.track(anchors, predicted);
+  std::vector<FeatureTracker::Sought> patches;
+  patches.reserve(sought.size());
+  for (const Sought& s : sought) patches.push_back(s.patch);
+  return tracker_.track(patches);
 }
 
-FeatureTracker::Tracks FeatureSource::locate_given(const std::vector<Sought>& sought) const {
-  FeatureTracker::Tracks tracks;
-  for (const Sought& s : sought) {
-    const PointFrame::Point* seen = find_point(points_, s.id);
-    tracks.found.push_back(seen != nullptr ? 1 : 0);
-    tracks.pixels.push_back(seen != nullptr ? seen->pixel : s.predicted);
+std::vector<FeatureTracker::Track> FeatureSource::locate_given(const std::vector<Sought>& sought) const {
+  std::vector<FeatureTracker::Track> tracks(sought.size());
+  for (std::size_t i = 0; i < sought.size(); ++i) {
+    const PointFrame::Point* seen = find_point(points_, sought[i].id);
+    if (seen != nullptr) tracks[i] = {seen->pixel, 0.0F, true};
   }
   return tracks;
 }

@@ -20,8 +20,7 @@ class FeatureSource {
   /// A feature to be found again.
   struct Sought {
     std::int64_t id = 0;
-    Eigen::Vector2f anchor_pixel = Eigen::Vector2f::Zero();  ///< in the image that anchor_here() kept
-    Eigen::Vector2f predicted = Eigen::Vector2f::Zero();     ///< in the newest image
+    FeatureTracker::Sought patch;  ///< from the image that anchor_here() kept
   };
   static constexpr std::int64_t kNoId = -1;
   /// A feature as the newest image shows it, or (without identity) a place that new ones have to keep away from.
@@ -39,7 +38,7 @@ class FeatureSource {
   bool take(const CameraFrame& frame);
   bool take(const PointFrame& frame);
 
-  FeatureTracker::Tracks locate(const std::vector<Sought>& sought);
+  std::vector<FeatureTracker::Track> locate(const std::vector<Sought>& sought);
   /// New features away from the present ones.
   std::vector<Fresh> find_new(const std::vector<Seen>& present, const CornerOptions& options);
   /// Makes the newest image the anchor. The present features' anchor pixels are then their newest ones.
@@ -49,7 +48,7 @@ class FeatureSource {
   GreyView image() const;
 
  private:
-  FeatureTracker::Tracks locate_given(const std::vector<Sought>& sought) const;
+  std::vector<FeatureTracker::Track> locate_given(const std::vector<Sought>& sought) const;
 
   CameraIntrinsics camera_;
   CameraNoise noise_;

@@ -6,6 +6,7 @@
 #include <opencv2/video/tracking.hpp>
 
 #include "estimator/vision/image_patch.h"
+#include "estimator/vision/patch_alignment.h"
 
 namespace plumbline {
 namespace {
@@ -18,6 +19,7 @@ constexpr double kMaxGain = 4.0;
 /// Least normalised correlation of a patch with its anchor. With image noise of variance n over texture of variance s
 /// a true match scores about s / (s + n); a patch buried in noise scores near 0, whatever the search made of it.
 constexpr double kLeastCorrelation = 0.7;
+constexpr float kUnalignedSigma_px = 0.25F;  // of tracks whose patches could only be shifted
 
 double box_mean(const cv::Mat& image, int x, int y) {
   int sum = 0;
@@ -45,6 +47,7 @@ struct FeatureTracker::Impl {
 
   double exposure_ratio();
   bool looks_like_its_anchor(const Eigen::Vector2f& anchor_pixel, const Eigen::Vector2f& pixel) const;
+  Track refined(const Sought& sought, const Eigen::Vector2f& pixel) const;
 };
 
 FeatureTracker::FeatureTracker() : impl_(std::make_unique<Impl>()) {}
@@ -91,28 +94,33 @@ bool FeatureTracker::Impl::looks_like_its_anchor(const Eigen::Vector2f& anchor_p
          correlation(read_patch(then, anchor_pixel), read_patch(now, pixel)) > kLeastCorrelation;
 }
 
-FeatureTracker::Tracks FeatureTracker::track(const std::vector<Eigen::Vector2f>& anchor_pixels,
-                                             const std::vector<Eigen::Vector2f>& predicted) {
+/// The pyramid's search shifts patches and so comes near; the place is where the deformed patch fits.
+FeatureTracker::Track FeatureTracker::Impl::refined(const Sought& sought, const Eigen::Vector2f& pixel) const {
+  if (!looks_like_its_anchor(sought.anchor_pixel, pixel)) return {};
+  const auto aligned =
+      align_patch(view_of(anchor), sought.anchor_pixel, view_of(newest), sought.now_from_anchor, pixel);
+  return aligned ? Track{aligned->pixel, aligned->sigma_px, true} : Track{pixel, kUnalignedSigma_px, true};
+}
+
+std::vector<FeatureTracker::Track> FeatureTracker::track(const std::vector<Sought>& sought) {
   Impl& m = *impl_;
-  Tracks tracks;
-  if (anchor_pixels.empty() || m.anchor_pyramid.empty()) return tracks;
+  if (sought.empty() || m.anchor_pyramid.empty()) return {};
   m.from.clear();
   m.to.clear();
-  for (const auto& p : anchor_pixels) m.from.emplace_back(p.x(), p.y());
-  for (const auto& p : predicted) m.to.emplace_back(p.x(), p.y());
+  for (const Sought& s : sought) {
+    m.from.emplace_back(s.anchor_pixel.x(), s.anchor_pixel.y());
+    m.to.emplace_back(s.predicted.x(), s.predicted.y());
+  }
 
   m.newest.convertTo(m.newest_scaled, CV_8U, m.exposure_ratio());
   const cv::Size window(kWindow, kWindow);
   cv::buildOpticalFlowPyramid(m.newest_scaled, m.newest_pyramid, window, kTopLevel, false);
-  const cv::TermCriteria stop(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 20, 0.02);
+  const cv::TermCriteria stop(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 10, 0.1);
   cv::calcOpticalFlowPyrLK(m.anchor_pyramid, m.newest_pyramid, m.from, m.to, m.status, cv::noArray(), window, kTopLevel,
                            stop, cv::OPTFLOW_USE_INITIAL_FLOW);
-  tracks.pixels.reserve(m.to.size());
-  tracks.found.reserve(m.to.size());
-  for (std::size_t i = 0; i < m.to.size(); ++i) {
-    tracks.pixels.emplace_back(m.to[i].x, m.to[i].y);
-    const bool found = m.status[i] != 0 && m.looks_like_its_anchor(anchor_pixels[i], tracks.pixels.back());
-    tracks.found.push_back(found ? 1 : 0);
+  std::vector<Track> tracks(sought.size());
+  for (std::size_t i = 0; i < sought.size(); ++i) {
+    if (m.status[i] != 0) tracks[i] = m.refined(sought[i], {m.to[i].x, m.to[i].y});
   }
   return tracks;
 }

@@ -17,9 +17,10 @@ class FeatureTracker {
   FeatureTracker& operator=(FeatureTracker&&) noexcept;
   ~FeatureTracker();
 
-  struct Tracks {
-    std::vector<Eigen::Vector2f> pixels;
-    std::vector<char> found;  ///< 0 where the patch was lost: out of the image, no convergence, or unlike its anchor
+  struct Track {
+    Eigen::Vector2f pixel = Eigen::Vector2f::Zero();
+    float sigma_px = 0.0F;  ///< per axis, since the anchor
+    bool found = false;     ///< not where the patch was lost: out of the image, no convergence, or unlike its anchor
   };
 
   /// Copies a new image.
@@ -29,8 +30,14 @@ class FeatureTracker {
   /// Makes the newest image the anchor.
   void anchor_here();
 
-  /// Finds in the newest image the patches that the anchor image shows at `anchor_pixels`.
-  Tracks track(const std::vector<Eigen::Vector2f>& anchor_pixels, const std::vector<Eigen::Vector2f>& predicted);
+  /// A patch to be found again.
+  struct Sought {
+    Eigen::Vector2f anchor_pixel = Eigen::Vector2f::Zero();
+    Eigen::Vector2f predicted = Eigen::Vector2f::Zero();
+    Eigen::Matrix2f now_from_anchor = Eigen::Matrix2f::Identity();  ///< how the patch is deformed
+  };
+  /// Finds in the newest image the patches that the anchor image shows, in their order; nothing without an anchor.
+  std::vector<Track> track(const std::vector<Sought>& sought);
 
  private:
   struct Impl;

@@ -20,7 +20,7 @@ struct FrameToFrameConfig {
   int grid_cols = 5;
   int features_per_cell = 30;
   double depth_max_age_s = 3.0;
-  double pixel_sigma_px = 0.25;   ///< of a track without image noise
+  double point_sigma_px = 0.25;   ///< of points given instead of images
   int min_features = 20;          ///< fewer tracks or inliers: the frame is skipped
   double min_inlier_share = 0.4;  ///< fewer: the frame is skipped
   /// On whitened J^T J. Constant velocity foresees the next frame to some 2 cm of a walker at 30 Hz or a car at 10 Hz

@@ -70,8 +70,7 @@ std::vector<std::optional<InverseDepth>> StereoDepth::measure(const GreyView& le
   }
   const GreyView right_image = view_of(right);
   std::vector<std::size_t> sought;
-  std::vector<Eigen::Vector2f> from;
-  std::vector<Eigen::Vector2f> to;
+  std::vector<FeatureTracker::Sought> patches;
   for (std::size_t i = 0; i < features.size(); ++i) {
     std::optional<Eigen::Vector2f> place;
     if (features[i].expected.known()) {
@@ -83,15 +82,15 @@ std::vector<std::optional<InverseDepth>> StereoDepth::measure(const GreyView& le
     }
     if (!place) continue;
     sought.push_back(i);
-    from.push_back(features[i].pixel);
-    to.push_back(*place);
+    patches.push_back({features[i].pixel, *place});
   }
   tracker_.set_image(left_image);
   tracker_.anchor_here();
   tracker_.set_image(right_image);
-  const FeatureTracker::Tracks tracks = tracker_.track(from, to);
-  for (std::size_t k = 0; k < tracks.pixels.size(); ++k) {
-    if (tracks.found[k] != 0) depths[sought[k]] = triangulated(features[sought[k]], tracks.pixels[k]);
+  const std::vector<FeatureTracker::Track> tracks = tracker_.track(patches);
+  for (std::size_t k = 0; k < tracks.size(); ++k) {
+    if (tracks[k].found)
+      depths[sought[k]] = triangulated(features[sought[k]], tracks[k].pixel, static_cast<double>(tracks[k].sigma_px));
   }
   return depths;
 }
@@ -102,16 +101,16 @@ std::vector<std::optional<InverseDepth>> StereoDepth::measure(const PointFrame& 
   std::vector<std::optional<InverseDepth>> depths(features.size());
   for (std::size_t i = 0; i < features.size(); ++i) {
     const PointFrame::Point* seen = find_point(points, features[i].id);
-    if (seen != nullptr) depths[i] = triangulated(features[i], seen->pixel);
+    if (seen != nullptr) depths[i] = triangulated(features[i], seen->pixel, 0.0);
   }
   return depths;
 }
 
-std::optional<InverseDepth> StereoDepth::triangulated(const Feature& feature,
-                                                      const Eigen::Vector2f& right_pixel) const {
+std::optional<InverseDepth> StereoDepth::triangulated(const Feature& feature, const Eigen::Vector2f& right_pixel,
+                                                      double track_sigma) const {
   FeatureSighting sighting;
   sighting.keyframe_ray = feature.ray;
-  sighting.pixel_sigma = feature.pixel_sigma;
+  sighting.pixel_sigma = std::hypot(feature.pixel_sigma, track_sigma);
   sighting.pixel = pinhole_pixel(right_.intrinsics, right_pixel);
   const auto depth = triangulate(right_from_left_, right_.intrinsics, sighting, kBaselineRelativeError);
   return depth && depth->known() ? depth : std::nullopt;

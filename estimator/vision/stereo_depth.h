@@ -23,7 +23,7 @@ class StereoDepth {
     std::int64_t id = 0;
     Eigen::Vector2f pixel = Eigen::Vector2f::Zero();  ///< in the image as it came
     Eigen::Vector3d ray = Eigen::Vector3d::UnitZ();   ///< z = 1
-    double pixel_sigma = 0.3;                         ///< [px]
+    double pixel_sigma = 0.3;                         ///< [px] of its place, and of that in the right image
     InverseDepth expected;                            ///< where it is sought first, if known
   };
 
@@ -35,7 +35,8 @@ class StereoDepth {
   std::vector<std::optional<InverseDepth>> measure(const PointFrame& right, const std::vector<Feature>& features) const;
 
  private:
-  std::optional<InverseDepth> triangulated(const Feature& feature, const Eigen::Vector2f& right_pixel) const;
+  std::optional<InverseDepth> triangulated(const Feature& feature, const Eigen::Vector2f& right_pixel,
+                                           double track_sigma) const;
   std::optional<Eigen::Vector2f> search(const GreyView& left_image, const GreyView& right_image,
                                         const Feature& feature) const;
   std::optional<Eigen::Vector2d> right_pinhole_pixel(const Feature& feature, double inverse_depth) const;

@@ -25,7 +25,7 @@ FeatureSetConfig feature_config(const VisionConfig& config) {
   features.corners.grid_rows = config.grid_rows;
   features.corners.grid_cols = config.grid_cols;
   features.corners.features_per_cell = config.features_per_cell;
-  features.pixel_sigma_px = config.pixel_sigma_px;
+  features.point_sigma_px = config.point_sigma_px;
   features.depth_max_age_s = config.depth_max_age_s;
   return features;
 }

@@ -19,7 +19,7 @@ struct VisionConfig {
   int features_per_cell = 10;
   double depth_max_age_s = 3.0;
 
-  double pixel_sigma_px = 0.25;  ///< of a track from key-frame to now without image noise: interpolation, changing view
+  double point_sigma_px = 0.25;  ///< of points given instead of images
   int min_features = 20;         ///< fewer tracks or inliers: nothing is solved
   double min_inlier_share = 0.4;
   /// On whitened J^T J. Rows are in units of their own noise, so an eigenvalue is one over a variance: 100 is 0.1 m.
