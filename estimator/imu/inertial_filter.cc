@@ -56,11 +56,11 @@ InertialFilter::InertialFilter(const InitialState& start, const ImuNoise& noise,
   // The mean force's length also gave the bias along gravity.
   const Eigen::Vector3d up_in_body = world_from_body.transpose().col(2);
   // What the gyro bias is wrong by has turned the heading ever since the first sample.
-  const Eigen::Matrix3d heading_from_bias = -start.watched_s * up_in_body * up_in_body.transpose();
-  covariance_.block<3, 3>(kAttitude, kGyroBias) = heading_from_bias * start.gyro_bias_covariance;
+  const Eigen::Matrix3d& attitude_from_bias = start.d_attitude_d_gyro_bias;
+  covariance_.block<3, 3>(kAttitude, kGyroBias) = attitude_from_bias * start.gyro_bias_covariance;
   covariance_.block<3, 3>(kGyroBias, kAttitude) = covariance_.block<3, 3>(kAttitude, kGyroBias).transpose();
   covariance_.block<3, 3>(kAttitude, kAttitude) =
-      heading_from_bias * start.gyro_bias_covariance * heading_from_bias.transpose();
+      attitude_from_bias * start.gyro_bias_covariance * attitude_from_bias.transpose();
   const double known = std::max(0.0, bias_variance - squared(start.tilt_sigma * kStandardGravity));
   covariance_.block<3, 3>(kAccelBias, kAccelBias) -= known * up_in_body * up_in_body.transpose();
   set_keyframe(state_.world_from_body);

@@ -28,6 +28,7 @@ constexpr double kSurprise = 3.0;         // sigmas
 constexpr double kStillStray = 5.0;       // times the noise's own walk: a hand strays 12 times as far, an idle engine 3
 constexpr double kRestSigma = 1e-4;       // [rad, m] a sample
 constexpr double kLeastForce = 1e-3;      // [m/s^2]; below, it says nothing of up
+constexpr double kBiasStep = 1e-4;        // [rad/s] of differences
 constexpr double kSampleMargin = 2.0;     // of a single sample: rounding to the unit's steps adds to its noise
 
 /// Range of the walk that the deviations from the mean integrate to, the longest axis.
@@ -78,11 +79,10 @@ std::optional<InitialState> Initializer::add(const ImuSample& sample) {
   if (!manoeuvres) return calm_start(strayed);
   InitialState start;
   start.state.stamp_ns = sample.stamp_ns;
-  start.watched_s = elapsed;
   start.tilt_sigma = kManoeuvreTilt;
   start.gyro_bias_covariance.diagonal().setConstant(squared(noise_.gyro_turn_on_sigma));
   start.velocity_sigma = kTravelVelocity;
-  start.state.world_from_body = attitude_now(start.state.gyro_bias);
+  set_attitude(start);
   return start;
 }
 
@@ -90,7 +90,7 @@ std::optional<InitialState> Initializer::add(const ImuSample& sample) {
 InitialState Initializer::calm_start(const Excursion& strayed) const {
   InitialState start;
   start.state.stamp_ns = samples_.back().stamp_ns;
-  const double elapsed = start.watched_s = static_cast<double>(samples_.size()) / rate_hz_;
+  const double elapsed = static_cast<double>(samples_.size()) / rate_hz_;
   const bool at_rest = strayed.velocity < kRestStray || has_been_still();
   find_gyro_bias(strayed, at_rest, start);
   // Only the length of the mean force is known to be gravity's; its direction is shared with the attitude.
@@ -99,8 +99,17 @@ InitialState Initializer::calm_start(const Excursion& strayed) const {
   const double force_sigma = std::hypot(noise_.accel_density / std::sqrt(elapsed), 0.5 * strayed.velocity / elapsed);
   start.tilt_sigma = std::hypot(force_sigma / kStandardGravity, at_rest ? 0.0 : kSteadyTilt);
   start.velocity_sigma = at_rest ? std::hypot(kRestVelocity, strayed.velocity) : kTravelVelocity;
-  start.state.world_from_body = attitude_now(start.state.gyro_bias);
+  set_attitude(start);
   return start;
+}
+
+void Initializer::set_attitude(InitialState& start) const {
+  start.state.world_from_body = attitude_now(start.state.gyro_bias);
+  for (int i = 0; i < 3; ++i) {
+    const Pose varied = attitude_now(start.state.gyro_bias + kBiasStep * Eigen::Vector3d::Unit(i));
+    start.d_attitude_d_gyro_bias.col(i) =
+        log_so3(start.state.world_from_body.rotation.conjugate() * varied.rotation) / kBiasStep;
+  }
 }
 
 /// The mean rate as a measurement of the bias, weighed against what the data sheet says of it. Data sheets are beaten

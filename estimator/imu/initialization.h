@@ -14,7 +14,9 @@ struct InitialState {
   double tilt_sigma = 0.0;                                         ///< [rad], given a perfect accelerometer
   Eigen::Matrix3d gyro_bias_covariance = Eigen::Matrix3d::Zero();  ///< [rad^2/s^2]
   double velocity_sigma = 0.0;                                     ///< [m/s]
-  double watched_s = 0.0;  ///< the heading was integrated for so long with the bias as it is known now
+  /// The samples before the start were integrated with the bias as it is known now, and so the attitude errs with it:
+  /// d attitude (right perturbation) d bias [s].
+  Eigen::Matrix3d d_attitude_d_gyro_bias = Eigen::Matrix3d::Zero();
 };
 
 /// Watches the first samples, and judges by how far the readings, integrated, stray from their mean's line:
@@ -49,6 +51,7 @@ class Initializer {
   bool manoeuvring(const Excursion& excursion) const;
   InitialState calm_start(const Excursion& strayed) const;
   void find_gyro_bias(const Excursion& strayed, bool at_rest, InitialState& start) const;
+  void set_attitude(InitialState& start) const;
   Pose attitude_now(const Eigen::Vector3d& gyro_bias) const;
 
   ImuNoise noise_;

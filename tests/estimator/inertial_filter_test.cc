@@ -246,7 +246,7 @@ TEST(InertialFilter, TheHeadingFollowsWhatTheStartDidNotKnowOfTheBias) {
   start.tilt_sigma = 1e-3;
   start.gyro_bias_covariance.diagonal().setConstant(kUnknownBias * kUnknownBias);
   start.velocity_sigma = 0.01;
-  start.watched_s = 1.0;
+  start.d_attitude_d_gyro_bias = -Eigen::Matrix3d::Identity();
   start.state.world_from_body.rotation = exp_so3({0.0, 0.0, kUnknownBias});
   InertialFilter filter(start, ImuNoise{}, true);
   ImuSample sample;

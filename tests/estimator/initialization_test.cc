@@ -7,6 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "estimator/geometry/so3.h"
 #include "sim/random_stream.h"
 
 namespace plumbline {
@@ -87,9 +88,27 @@ TEST(Initializer, AHandThatTurnsWhileWatchedHasTurned) {
   const Eigen::Vector3d no_bias = Eigen::Vector3d::Zero();
   const InitialState start = start_on(turn, no_bias);
   const Eigen::Vector3d ahead = start.state.world_from_body.rotation * Eigen::Vector3d::UnitX();
-  const double sigma = start.watched_s * std::sqrt(start.gyro_bias_covariance(2, 2));
+  const double sigma = std::sqrt(start.gyro_bias_covariance(2, 2));  // times the second it was watched
   EXPECT_NEAR(std::atan2(ahead.y(), ahead.x()), truth, 2.0 * sigma);
   EXPECT_LT(2.0 * sigma, 0.4 * kTurn);  // or the line above would pass whatever was said
+}
+
+/// A pack that looks down by 45 degrees and turns slowly, which passes for a bias: once the bias is known, the attitude
+/// at the start follows, its heading from all three axes.
+TEST(Initializer, KnowsWhatItsAttitudeOwesToTheBias) {
+  const Eigen::Vector3d bias(-0.004, 0.0, -0.014);
+  const Eigen::Quaterniond level_from_start(Eigen::AngleAxisd(M_PI / 4, Eigen::Vector3d::UnitY()));
+  const Eigen::Vector3d turn(0.004, 0.006, 0.012);  // [rad/s] in B
+  const auto attitude = [&](double t) { return level_from_start * exp_so3(t * turn); };
+  const InitialState start = start_on([&](double t) { return Reading{turn, attitude(t).conjugate() * kUp}; }, bias);
+  const Eigen::Vector3d unknown = bias - start.state.gyro_bias;
+  ASSERT_GT(unknown.norm(), 0.005);
+  const double t = start.state.stamp_ns * 1e-9;
+  const auto error = [&](const Eigen::Quaterniond& found) { return log_so3(attitude(t).conjugate() * found).norm(); };
+  const Eigen::Quaterniond& found = start.state.world_from_body.rotation;
+  EXPECT_GT(error(found), 0.004);
+  // What is left is the force's noise and the tilt that the turn put into its mean.
+  EXPECT_LT(error(found * exp_so3(start.d_attitude_d_gyro_bias * unknown)), 0.0015);
 }
 
 /// What is given out before the start is a pose as any other: it turns as the hand does, and goes over into the state
