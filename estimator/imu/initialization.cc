@@ -29,7 +29,10 @@ constexpr double kStillStray = 5.0;       // times the noise's own walk: a hand 
 constexpr double kRestSigma = 1e-4;       // [rad, m] a sample
 constexpr double kLeastForce = 1e-3;      // [m/s^2]; below, it says nothing of up
 constexpr double kBiasStep = 1e-4;        // [rad/s] of differences
-constexpr double kSampleMargin = 2.0;     // of a single sample: rounding to the unit's steps adds to its noise
+// Between two random moments of a swing the body turns by half its range, root mean square; of one that takes four
+// times as long as it was watched, the mean rate hides most.
+constexpr double kSlowSwing = 1.5;
+constexpr double kSampleMargin = 2.0;  // of a single sample: rounding to the unit's steps adds to its noise
 
 /// Range of the walk that the deviations from the mean integrate to, the longest axis.
 template <typename Reading>
@@ -96,7 +99,8 @@ InitialState Initializer::calm_start(const Excursion& strayed) const {
   // Only the length of the mean force is known to be gravity's; its direction is shared with the attitude.
   if (mean_force_.norm() > kLeastForce)
     start.state.accel_bias = mean_force_ * (1.0 - kStandardGravity / mean_force_.norm());
-  const double force_sigma = std::hypot(noise_.accel_density / std::sqrt(elapsed), 0.5 * strayed.velocity / elapsed);
+  const double force_sigma =
+      std::hypot(noise_.accel_density / std::sqrt(elapsed), kSlowSwing * strayed.velocity / elapsed);
   start.tilt_sigma = std::hypot(force_sigma / kStandardGravity, at_rest ? 0.0 : kSteadyTilt);
   start.velocity_sigma = at_rest ? std::hypot(kRestVelocity, strayed.velocity) : kTravelVelocity;
   set_attitude(start);
@@ -118,8 +122,7 @@ void Initializer::set_attitude(InitialState& start) const {
 void Initializer::find_gyro_bias(const Excursion& strayed, bool at_rest, InitialState& start) const {
   const double elapsed = static_cast<double>(samples_.size()) / rate_hz_;
   const double noise_sigma = noise_.gyro_density / std::sqrt(elapsed);
-  // Between two random moments of a swing the body turns by half its range, root mean square.
-  const double rate_sigma = std::hypot(noise_sigma, 0.5 * strayed.angle / elapsed);
+  const double rate_sigma = std::hypot(noise_sigma, kSlowSwing * strayed.angle / elapsed);
   const bool still = strayed.angle < kStillStray * noise_sigma * elapsed;
   const Eigen::Vector3d up = mean_force_.norm() > kLeastForce ? mean_force_.normalized() : Eigen::Vector3d::UnitZ();
   const Eigen::Matrix3d body_from_world = level(up).conjugate().toRotationMatrix();

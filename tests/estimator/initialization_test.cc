@@ -75,6 +75,21 @@ TEST(Initializer, AHandThatSwaysLeavesTheBiasUnsure) {
   EXPECT_LT(swaying.velocity_sigma, 0.1);
 }
 
+/// A craft that hovers in the wind swings over three seconds, and trembles: most of what it turns in the one second
+/// that it is watched for looks like a bias.
+TEST(Initializer, ASlowSwingIsNotTakenForASureBias) {
+  const double slow = kTwoPi / 3.0;
+  const double fast = kTwoPi * 1.3;
+  for (double phase = 0.0; phase < kTwoPi; phase += kTwoPi / 8.0) {
+    const InitialState start = start_on([&](double t) {
+      const double rate = 0.01 * slow * std::cos(slow * t + phase) + 0.003 * fast * std::cos(fast * t);
+      return Reading{Eigen::Vector3d(0.0, 0.0, rate), kUp};
+    });
+    SCOPED_TRACE(phase);
+    expect_bias_within_its_sigmas(start, kBias);
+  }
+}
+
 /// The world's x axis is where the first sample looked, so what the hand turns while it is watched is heading. The mean
 /// rate is beyond the data sheet's bias, but nothing is still: it is a turn.
 TEST(Initializer, AHandThatTurnsWhileWatchedHasTurned) {
