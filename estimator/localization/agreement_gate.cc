@@ -6,7 +6,8 @@ namespace {
 constexpr double kLeastOverlap = 0.35;
 constexpr double kLeastInliers = 0.85;
 
-// A start is known to a metre and ten degrees; after that, odometry's drift at four sigma.
+// A start is known to a metre and ten degrees; after that, odometry's drift at four sigma, lost or not: the next match
+// within ten degrees of a place lost over a field was a wrong one.
 constexpr double kStart_m = 1.0;
 constexpr double kStart_rad = 0.17;
 constexpr double kSigmas = 4.0;
@@ -21,7 +22,8 @@ constexpr int kRefusalsUntilLost = 3;
 MapAgreement AgreementGate::shape(const MatchEvidence& evidence) const {
   if (evidence.overlap < kLeastOverlap) return MapAgreement::kOffMap;
   if (evidence.well_conditioned == 0) return MapAgreement::kUndetermined;
-  if (evidence.support < kLeastSupport || evidence.inlier_share < kLeastInliers) return MapAgreement::kDisagrees;
+  const double least_support = found_ ? least_support_.once_found : least_support_.at_start;
+  if (evidence.support < least_support || evidence.inlier_share < kLeastInliers) return MapAgreement::kDisagrees;
   return MapAgreement::kAgrees;
 }
 
@@ -34,8 +36,8 @@ bool AgreementGate::confirms(const Pose& map_from_body, const Pose& odometry_fro
 bool AgreementGate::too_far(const Pose& map_from_body, const Pose& odometry_from_body) const {
   const OdometryDrift drift;
   const Vector6d apart = (held_ * odometry_from_body).local(map_from_body);
-  const double start_m = localized_ ? 0.0 : kStart_m;
-  const double start_rad = localized_ ? 0.0 : kStart_rad;
+  const double start_m = found_ ? 0.0 : kStart_m;
+  const double start_rad = found_ ? 0.0 : kStart_rad;
   return apart.tail<3>().norm() > start_m + kSigmas * drift.translation_sigma(travelled_m_) ||
          apart.head<3>().norm() > start_rad + kSigmas * drift.rotation_sigma(travelled_m_);
 }
@@ -62,7 +64,7 @@ MapAgreement AgreementGate::judge(const MatchEvidence& evidence, const Pose& odo
   }
   candidate_.reset();
   held_ = map_from_odometry;
-  localized_ = true;
+  localized_ = found_ = true;
   refused_ = 0;
   travelled_m_ = 0.0;
   return MapAgreement::kAgrees;

@@ -10,9 +10,9 @@ namespace plumbline {
 /// the gate all believe odometry alike.
 struct OdometryDrift {
   double sigma_m = 0.02;          ///< what a turn or a match of its own may shift it at once
-  double sigma_per_metre = 0.01;  ///< 1 % is ten times what it does on a good day
-  double sigma_rad = 0.003;       ///< likewise, of rotation
-  double sigma_rad_per_metre = 2e-4;
+  double sigma_per_metre = 0.01;  ///< 1 % is several times what it does on a good day
+  double sigma_rad = 5e-4;        ///< likewise, of rotation
+  double sigma_rad_per_metre = 2e-5;
 
   double translation_sigma(double travelled_m) const { return sigma_m + sigma_per_metre * travelled_m; }
   double rotation_sigma(double travelled_m) const { return sigma_rad + sigma_rad_per_metre * travelled_m; }
@@ -36,7 +36,14 @@ class AgreementGate {
   /// one metre off it may be 0.19, of rows of which fewer than eight in ten fit.
   static constexpr double kLeastSupport = 0.1;
 
-  explicit AgreementGate(const Pose& map_from_start) : held_(map_from_start) {}
+  /// Of MatchEvidence::support. Once the body has been found, odometry says where it is to decimetres, and the map need
+  /// not tell that place from all others.
+  struct LeastSupport {
+    double at_start = kLeastSupport;
+    double once_found = kLeastSupport;
+  };
+
+  AgreementGate(const Pose& map_from_start, const LeastSupport& least) : least_support_(least), held_(map_from_start) {}
 
   MapAgreement judge(const MatchEvidence& evidence, const Pose& odometry_from_body);
 
@@ -47,15 +54,19 @@ class AgreementGate {
   /// Distance travelled since the last match that was believed [m].
   double travelled_m() const { return travelled_m_; }
   bool localized() const { return localized_; }
+  /// Has been localized at least once.
+  bool found() const { return found_; }
 
  private:
   MapAgreement shape(const MatchEvidence& evidence) const;
   bool confirms(const Pose& map_from_body, const Pose& odometry_from_body) const;
   bool too_far(const Pose& map_from_body, const Pose& odometry_from_body) const;
 
+  LeastSupport least_support_;
   Pose held_;
   std::optional<Pose> candidate_;
   bool localized_ = false;
+  bool found_ = false;
   int refused_ = 0;  ///< in a row
   double travelled_m_ = 0.0;
   std::optional<Eigen::Vector3d> last_position_;

@@ -32,6 +32,7 @@ class MapLocalizer {
  private:
   MatchEvidence evidence_of(const FeatureCloud& stack, const SolveResult& solved) const;
 
+  Calibration calibration_;
   ScanMatcher matcher_;
   Occupancy occupancy_;
   AgreementGate gate_;

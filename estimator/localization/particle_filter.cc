@@ -63,7 +63,7 @@ Matrix6d spread_of(const std::vector<Pose>& poses, const std::vector<double>& we
 ParticleFilter::ParticleFilter(const Calibration& calibration, const PriorMap& map, const Pose& map_from_start)
     : planes_(kFieldVoxel_m, kResolution_m),
       occupancy_(map.surfaces),
-      gate_(map_from_start),
+      gate_(map_from_start, {}),
       random_(kSeed),
       map_from_body_(kParticles, map_from_start) {
   limits_.map_sigma_m = 0.5 * calibration.lidar_range_sigma_m;
