@@ -29,8 +29,10 @@ constexpr double kStillStray = 5.0;       // times the noise's own walk: a hand 
 constexpr double kRestSigma = 1e-4;       // [rad, m] a sample
 constexpr double kLeastForce = 1e-3;      // [m/s^2]; below, it says nothing of up
 constexpr double kBiasStep = 1e-4;        // [rad/s] of differences
-// Between two random moments of a swing the body turns by half its range, root mean square; of one that takes four
-// times as long as it was watched, the mean rate hides most.
+// What a body strays says how much of its mean rate may be motion. Between two random moments of a swing or a tremble
+// it turns by half its range, root mean square; of a swing that takes four times as long as it was watched, the mean
+// rate hides most.
+constexpr double kTremble = 0.5;
 constexpr double kSlowSwing = 1.5;
 constexpr double kSampleMargin = 2.0;  // of a single sample: rounding to the unit's steps adds to its noise
 
@@ -100,7 +102,7 @@ InitialState Initializer::calm_start(const Excursion& strayed) const {
   if (mean_force_.norm() > kLeastForce)
     start.state.accel_bias = mean_force_ * (1.0 - kStandardGravity / mean_force_.norm());
   const double force_sigma =
-      std::hypot(noise_.accel_density / std::sqrt(elapsed), kSlowSwing * strayed.velocity / elapsed);
+      std::hypot(noise_.accel_density / std::sqrt(elapsed), hidden_share(strayed) * strayed.velocity / elapsed);
   start.tilt_sigma = std::hypot(force_sigma / kStandardGravity, at_rest ? 0.0 : kSteadyTilt);
   start.velocity_sigma = at_rest ? std::hypot(kRestVelocity, strayed.velocity) : kTravelVelocity;
   set_attitude(start);
@@ -116,14 +118,23 @@ void Initializer::set_attitude(InitialState& start) const {
   }
 }
 
+bool Initializer::turns_no_more_than_noise(const Excursion& strayed) const {
+  const double elapsed = static_cast<double>(samples_.size()) / rate_hz_;
+  return strayed.angle < kStillStray * noise_.gyro_density * std::sqrt(elapsed);
+}
+
+double Initializer::hidden_share(const Excursion& strayed) const {
+  return turns_no_more_than_noise(strayed) ? kTremble : kSlowSwing;
+}
+
 /// The mean rate as a measurement of the bias, weighed against what the data sheet says of it. Data sheets are beaten
 /// by single units, so a mean that they cannot explain widens the expectation, if nothing moves; in a hand it is a
 /// turn.
 void Initializer::find_gyro_bias(const Excursion& strayed, bool at_rest, InitialState& start) const {
   const double elapsed = static_cast<double>(samples_.size()) / rate_hz_;
   const double noise_sigma = noise_.gyro_density / std::sqrt(elapsed);
-  const double rate_sigma = std::hypot(noise_sigma, kSlowSwing * strayed.angle / elapsed);
-  const bool still = strayed.angle < kStillStray * noise_sigma * elapsed;
+  const double rate_sigma = std::hypot(noise_sigma, hidden_share(strayed) * strayed.angle / elapsed);
+  const bool still = turns_no_more_than_noise(strayed);
   const Eigen::Vector3d up = mean_force_.norm() > kLeastForce ? mean_force_.normalized() : Eigen::Vector3d::UnitZ();
   const Eigen::Matrix3d body_from_world = level(up).conjugate().toRotationMatrix();
   const Eigen::Vector3d mean = body_from_world.transpose() * mean_rate_;

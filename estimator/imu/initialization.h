@@ -48,6 +48,8 @@ class Initializer {
   };
   Excursion excursion() const;
   bool has_been_still() const;
+  bool turns_no_more_than_noise(const Excursion& strayed) const;
+  double hidden_share(const Excursion& strayed) const;
   bool manoeuvring(const Excursion& excursion) const;
   InitialState calm_start(const Excursion& strayed) const;
   void find_gyro_bias(const Excursion& strayed, bool at_rest, InitialState& start) const;
