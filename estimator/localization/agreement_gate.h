@@ -9,10 +9,10 @@ namespace plumbline {
 /// How far odometry may have drifted since a known pose. The matcher's prior, the particle filter's motion model and
 /// the gate all believe odometry alike.
 struct OdometryDrift {
-  double sigma_m = 0.02;          ///< what a turn or a match of its own may shift it at once
-  double sigma_per_metre = 0.01;  ///< 1 % is several times what it does on a good day
-  double sigma_rad = 5e-4;        ///< likewise, of rotation
-  double sigma_rad_per_metre = 2e-5;
+  double sigma_m = 0.02;              ///< what a turn or a match of its own may shift it at once
+  double sigma_per_metre = 0.01;      ///< 1 % is several times what it does on a good day
+  double sigma_rad = 5e-4;            ///< likewise, of rotation
+  double sigma_rad_per_metre = 2e-5;  ///< twice what heading drifts in flight over a field, with a camera
 
   double translation_sigma(double travelled_m) const { return sigma_m + sigma_per_metre * travelled_m; }
   double rotation_sigma(double travelled_m) const { return sigma_rad + sigma_rad_per_metre * travelled_m; }
@@ -31,9 +31,9 @@ struct MatchEvidence {
 /// before the first is believed: on a wrong map each finds a fit of its own.
 class AgreementGate {
  public:
-  /// Measured: where the map is right at least 0.13 is borne out, even by a map that a level lidar made for one that
-  /// looks 45 degrees down, and nine rows in ten fit. Three metres along a hall or a garage 0.07 is borne out at most;
-  /// one metre off it may be 0.19, of rows of which fewer than eight in ten fit.
+  /// Of all planes seen near the map. Measured: where the map is right at least 0.13 is borne out, even by a map that a
+  /// level lidar made for one that looks 45 degrees down, and nine rows in ten fit. Three metres along a hall or a
+  /// garage 0.07 is borne out at most; one metre off it may be 0.19, of rows of which fewer than eight in ten fit.
   static constexpr double kLeastSupport = 0.1;
 
   /// Of MatchEvidence::support. Once the body has been found, odometry says where it is to decimetres, and the map need
