@@ -38,14 +38,16 @@ bool AgreementGate::too_far(const Pose& map_from_body, const Pose& odometry_from
   const Vector6d apart = (held_ * odometry_from_body).local(map_from_body);
   const double start_m = found_ ? 0.0 : kStart_m;
   const double start_rad = found_ ? 0.0 : kStart_rad;
-  return apart.tail<3>().norm() > start_m + kSigmas * drift.translation_sigma(travelled_m_) ||
-         apart.head<3>().norm() > start_rad + kSigmas * drift.rotation_sigma(travelled_m_);
+  return apart.tail<3>().norm() > start_m + kSigmas * drift.translation_sigma(way_) ||
+         apart.head<3>().norm() > start_rad + kSigmas * drift.rotation_sigma(way_);
 }
 
-MapAgreement AgreementGate::judge(const MatchEvidence& evidence, const Pose& odometry_from_body) {
-  const Eigen::Vector3d position = odometry_from_body.translation;
-  travelled_m_ += (position - last_position_.value_or(position)).norm();
-  last_position_ = position;
+MapAgreement AgreementGate::judge(const MatchEvidence& evidence, const OdometryReading& odometry) {
+  const OdometryReading last = last_.value_or(odometry);
+  last_ = odometry;
+  const Pose& odometry_from_body = odometry.odometry_from_body;
+  way_.travelled_m += (odometry_from_body.translation - last.odometry_from_body.translation).norm();
+  way_.blind_m += odometry.blind_m - last.blind_m;
 
   MapAgreement agreement = shape(evidence);
   const Pose& map_from_body = evidence.map_from_body;
@@ -66,7 +68,7 @@ MapAgreement AgreementGate::judge(const MatchEvidence& evidence, const Pose& odo
   held_ = map_from_odometry;
   localized_ = found_ = true;
   refused_ = 0;
-  travelled_m_ = 0.0;
+  way_ = {};
   return MapAgreement::kAgrees;
 }
 

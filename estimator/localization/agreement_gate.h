@@ -6,16 +6,31 @@
 
 namespace plumbline {
 
-/// How far odometry may have drifted since a known pose. The matcher's prior, the particle filter's motion model and
-/// the gate all believe odometry alike.
-struct OdometryDrift {
-  double sigma_m = 0.02;              ///< what a turn or a match of its own may shift it at once
-  double sigma_per_metre = 0.01;      ///< 1 % is several times what it does on a good day
-  double sigma_rad = 5e-4;            ///< likewise, of rotation
-  double sigma_rad_per_metre = 2e-5;  ///< twice what heading drifts in flight over a field, with a camera
+/// A way that odometry has gone.
+struct OdometryWay {
+  double travelled_m = 0.0;
+  double blind_m = 0.0;  ///< of these, without a solution from images
+};
 
-  double translation_sigma(double travelled_m) const { return sigma_m + sigma_per_metre * travelled_m; }
-  double rotation_sigma(double travelled_m) const { return sigma_rad + sigma_rad_per_metre * travelled_m; }
+/// Where odometry says that the body is, and how it came there.
+struct OdometryReading {
+  Pose odometry_from_body;
+  double blind_m = 0.0;  ///< travelled without a solution from images since the start
+};
+
+/// How far odometry may have drifted on a way. The matcher's prior, the particle filter's motion model and the gate all
+/// believe odometry alike.
+struct OdometryDrift {
+  double sigma_m = 0.02;                    ///< what a turn or a match of its own may shift it at once
+  double sigma_per_metre = 0.01;            ///< 1 % is several times what it does on a good day
+  double sigma_rad = 5e-4;                  ///< likewise, of rotation
+  double sigma_rad_per_metre = 2e-5;        ///< twice what heading drifts in flight over a field, with a camera
+  double sigma_rad_per_blind_metre = 2e-4;  ///< without one: a degree in a hundred metres among trees
+
+  double translation_sigma(const OdometryWay& way) const { return sigma_m + sigma_per_metre * way.travelled_m; }
+  double rotation_sigma(const OdometryWay& way) const {
+    return sigma_rad + sigma_rad_per_metre * way.travelled_m + sigma_rad_per_blind_metre * way.blind_m;
+  }
 };
 
 /// Where a match says that the body is, and how well map and scans go together there.
@@ -45,14 +60,14 @@ class AgreementGate {
 
   AgreementGate(const Pose& map_from_start, const LeastSupport& least) : least_support_(least), held_(map_from_start) {}
 
-  MapAgreement judge(const MatchEvidence& evidence, const Pose& odometry_from_body);
+  MapAgreement judge(const MatchEvidence& evidence, const OdometryReading& odometry);
 
   /// Of the last match that was believed; the start's before there is one.
   const Pose& map_from_odometry() const { return held_; }
   /// Where the next match had best look: as above, or where an unconfirmed one was.
   const Pose& expected_map_from_odometry() const { return candidate_ ? *candidate_ : held_; }
-  /// Distance travelled since the last match that was believed [m].
-  double travelled_m() const { return travelled_m_; }
+  /// Since the last match that was believed, up to the last judged.
+  const OdometryWay& way() const { return way_; }
   bool localized() const { return localized_; }
   /// Has been localized at least once.
   bool found() const { return found_; }
@@ -68,8 +83,8 @@ class AgreementGate {
   bool localized_ = false;
   bool found_ = false;
   int refused_ = 0;  ///< in a row
-  double travelled_m_ = 0.0;
-  std::optional<Eigen::Vector3d> last_position_;
+  OdometryWay way_;
+  std::optional<OdometryReading> last_;
 };
 
 }  // namespace plumbline

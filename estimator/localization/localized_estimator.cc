@@ -15,6 +15,8 @@ constexpr std::int64_t kCorrectedTrack_ns = MessageGate::kLongestDelay_ns + Swee
 constexpr std::int64_t kLeastInterval_ns = 150'000'000;
 // A correction is spent before the next one comes; a decimetre in a second is the pace of a slow step aside.
 constexpr double kLongestBlend_s = 1.0;
+// Images come slower than this only if they do not drive the heading.
+constexpr std::int64_t kSeeing_ns = 1'000'000'000;
 
 std::int64_t period_ns(const LocalizationConfig& config) {
   if (!(config.rate_hz >= 0.1 && config.rate_hz <= 20.0)) {
@@ -89,7 +91,7 @@ void LocalizedEstimator::match(std::int64_t stamp_ns, Odometry& odometry) {
   const Pose odometry_from_body = stack_.newest_pose();
   const FeatureCloud features = stack_.in_newest_body();
   MapFix fix = std::visit(
-      [&](auto& localizer) { return localizer.locate(newest_scan_ns_, features, odometry_from_body); }, localizer_);
+      [&](auto& localizer) { return localizer.locate(newest_scan_ns_, features, OdometryReading{odometry_from_body, blind_m_}); }, localizer_);
   fix.match.processing_s += std::exchange(stacking_s_, 0.0);
   if (fix.match.agreement == MapAgreement::kAgrees) {
     correction_.aim(stamp_ns, odometry.world_from_body, gate().map_from_odometry());
@@ -106,6 +108,14 @@ void LocalizedEstimator::match(std::int64_t stamp_ns, Odometry& odometry) {
   odometry.map_matches.push_back(fix.match);
 }
 
+/// Any solution of images counts, be it of some directions alone: a turn is the last that they leave open.
+void LocalizedEstimator::count_blind_way(const Odometry& odometry, double step_m) {
+  for (const ModuleHealth& health : odometry.health) {
+    if (health.module == Module::kVision && health.mode != ModuleMode::kBypassed) last_seen_ns_ = health.stamp_ns;
+  }
+  if (!last_seen_ns_ || odometry.stamp_ns - *last_seen_ns_ > kSeeing_ns) blind_m_ += step_m;
+}
+
 Odometry LocalizedEstimator::localized(Odometry odometry) {
   const Pose odometry_from_body = odometry.world_from_body;
   const bool first = track_.empty();
@@ -115,7 +125,9 @@ Odometry LocalizedEstimator::localized(Odometry odometry) {
     track_.forget_before(odometry.stamp_ns - kCorrectedTrack_ns);
   }
   const Pose body_from_last = odometry_from_body.inverse() * last;
-  path_m_ += body_from_last.translation.norm();
+  const double step_m = body_from_last.translation.norm();
+  path_m_ += step_m;
+  count_blind_way(odometry, step_m);
   const Matrix6d carry = adjoint(body_from_last);
   covariance_ =
       first ? odometry.covariance : Matrix6d(carry * covariance_ * carry.transpose() + odometry.increment_covariance);

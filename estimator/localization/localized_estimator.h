@@ -47,6 +47,7 @@ class LocalizedEstimator final : public Estimator {
  private:
   void stack(const LidarScan& part);
   void match(std::int64_t stamp_ns, Odometry& odometry);
+  void count_blind_way(const Odometry& odometry, double step_m);
   Odometry localized(Odometry odometry);
   const AgreementGate& gate() const;
 
@@ -64,6 +65,8 @@ class LocalizedEstimator final : public Estimator {
   std::optional<std::int64_t> last_match_ns_;  ///< the first scan's start before there is one
   double stacking_s_ = 0.0;                    ///< since the last match
   double path_m_ = 0.0;
+  double blind_m_ = 0.0;  ///< of path_m_
+  std::optional<std::int64_t> last_seen_ns_;  ///< vision's last solution
   Matrix6d covariance_ = Matrix6d::Zero();  ///< on the map
   std::vector<Odometry> outputs_;
 };

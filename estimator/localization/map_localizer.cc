@@ -38,11 +38,11 @@ ScanMatcherConfig stack_matcher_config() {
   return config;
 }
 
-PosePrior prior_at(const Pose& predicted, double travelled_m, bool found) {
+PosePrior prior_at(const Pose& predicted, const OdometryWay& way, bool found) {
   const OdometryDrift drift;
   Vector6d sigma;
-  sigma << Eigen::Vector3d::Constant(drift.rotation_sigma(travelled_m)),
-      Eigen::Vector3d::Constant(drift.translation_sigma(travelled_m));
+  sigma << Eigen::Vector3d::Constant(drift.rotation_sigma(way)),
+      Eigen::Vector3d::Constant(drift.translation_sigma(way));
   if (!found) {
     sigma.head<3>().array() += kStartSigma_rad;
     sigma.tail<3>().array() += kStartSigma_m;
@@ -105,16 +105,16 @@ MatchEvidence MapLocalizer::evidence_of(const FeatureCloud& stack, const SolveRe
   return evidence;
 }
 
-MapFix MapLocalizer::locate(std::int64_t stamp_ns, const FeatureCloud& stack, const Pose& odometry_from_body) {
+MapFix MapLocalizer::locate(std::int64_t stamp_ns, const FeatureCloud& stack, const OdometryReading& odometry) {
   const StopWatch watch;
-  const Pose predicted = gate_.expected_map_from_odometry() * odometry_from_body;
-  const SolveResult solved = matcher_.match(stack, prior_at(predicted, gate_.travelled_m(), gate_.found()));
+  const Pose predicted = gate_.expected_map_from_odometry() * odometry.odometry_from_body;
+  const SolveResult solved = matcher_.match(stack, prior_at(predicted, gate_.way(), gate_.found()));
   const MatchEvidence evidence = evidence_of(stack, solved);
   MapFix fix;
   fix.health = health_of(stamp_ns, Module::kLocalization, solved, predicted, watch.seconds());
   fix.covariance = covariance_of(solved);
   fix.match.stamp_ns = stamp_ns;
-  fix.match.agreement = gate_.judge(evidence, odometry_from_body);
+  fix.match.agreement = gate_.judge(evidence, odometry);
   fix.match.overlap = evidence.overlap;
   fix.match.support = evidence.support;
   fix.match.correction_rad = fix.health.correction.head<3>().norm();

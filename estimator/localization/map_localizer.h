@@ -25,7 +25,7 @@ class MapLocalizer {
   MapLocalizer(const Calibration& calibration, const PriorMap& map, const Pose& map_from_start, bool remapping);
 
   /// @param stack  features in B now
-  MapFix locate(std::int64_t stamp_ns, const FeatureCloud& stack, const Pose& odometry_from_body);
+  MapFix locate(std::int64_t stamp_ns, const FeatureCloud& stack, const OdometryReading& odometry);
 
   const AgreementGate& gate() const { return gate_; }
 

@@ -80,16 +80,16 @@ double ParticleFilter::gaussian() {
 }
 
 /// The drift that is not the way's is taken for a random walk, told for an interval of the matcher's.
-void ParticleFilter::move_by(const Pose& motion, double seconds) {
+void ParticleFilter::move_by(const Pose& motion, double blind_m, double seconds) {
   OdometryDrift drift;
   const double share = std::sqrt(std::clamp(seconds / kDriftInterval_s, 0.0, 1.0));
   drift.sigma_m *= share;
   drift.sigma_rad *= share;
-  const double travelled_m = motion.translation.norm();
+  const OdometryWay way{motion.translation.norm(), blind_m};
   for (Pose& particle : map_from_body_) {
     Vector6d noise;
-    for (int i = 0; i < 3; ++i) noise[i] = drift.rotation_sigma(travelled_m) * gaussian();
-    for (int i = 3; i < 6; ++i) noise[i] = drift.translation_sigma(travelled_m) * gaussian();
+    for (int i = 0; i < 3; ++i) noise[i] = drift.rotation_sigma(way) * gaussian();
+    for (int i = 3; i < 6; ++i) noise[i] = drift.translation_sigma(way) * gaussian();
     particle = (particle * motion).retract(noise);
   }
 }
@@ -138,13 +138,15 @@ void ParticleFilter::resample(const std::vector<double>& weights) {
   map_from_body_ = std::move(drawn);
 }
 
-MapFix ParticleFilter::locate(std::int64_t stamp_ns, const FeatureCloud& stack, const Pose& odometry_from_body) {
+MapFix ParticleFilter::locate(std::int64_t stamp_ns, const FeatureCloud& stack, const OdometryReading& odometry) {
   const StopWatch watch;
   const std::vector<FeaturePoint> points = sample(stack);
   // Until the first update the particles stand where odometry started.
   const double seconds = last_odometry_ ? seconds_between(last_ns_, stamp_ns) : kDriftInterval_s;
-  move_by(last_odometry_.value_or(Pose{}).inverse() * odometry_from_body, seconds);
-  last_odometry_ = odometry_from_body;
+  const Pose& odometry_from_body = odometry.odometry_from_body;
+  const OdometryReading last = last_odometry_.value_or(OdometryReading{});
+  move_by(last.odometry_from_body.inverse() * odometry_from_body, odometry.blind_m - last.blind_m, seconds);
+  last_odometry_ = odometry;
   last_ns_ = stamp_ns;
   const Pose predicted = gate_.expected_map_from_odometry() * odometry_from_body;
   std::vector<Eigen::Vector3d> places;
@@ -166,7 +168,7 @@ MapFix ParticleFilter::locate(std::int64_t stamp_ns, const FeatureCloud& stack, 
   resample(weights);
   const Vector6d correction = predicted.local(evidence.map_from_body);
   fix.match.stamp_ns = stamp_ns;
-  fix.match.agreement = gate_.judge(evidence, odometry_from_body);
+  fix.match.agreement = gate_.judge(evidence, odometry);
   fix.match.overlap = evidence.overlap;
   fix.match.support = map_support(plane_information(planes_near(points, occupancy_, mean), kSigma_m, kNormalSigma),
                                   plane_information(on_map, kSigma_m, 0.0), kLeastInformation);

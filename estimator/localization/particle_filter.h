@@ -19,7 +19,7 @@ class ParticleFilter {
 
   ParticleFilter(const Calibration& calibration, const PriorMap& map, const Pose& map_from_start);
 
-  MapFix locate(std::int64_t stamp_ns, const FeatureCloud& stack, const Pose& odometry_from_body);
+  MapFix locate(std::int64_t stamp_ns, const FeatureCloud& stack, const OdometryReading& odometry);
 
   const AgreementGate& gate() const { return gate_; }
 
@@ -30,7 +30,7 @@ class ParticleFilter {
     std::vector<FeaturePoint> on_map;
   };
 
-  void move_by(const Pose& motion, double seconds);
+  void move_by(const Pose& motion, double blind_m, double seconds);
   Likelihood likelihood(const std::vector<FeaturePoint>& points, const Pose& map_from_body) const;
   std::vector<double> weigh(const std::vector<FeaturePoint>& points) const;
   void resample(const std::vector<double>& weights);
@@ -43,7 +43,7 @@ class ParticleFilter {
   AgreementGate gate_;
   std::mt19937_64 random_;           ///< its sequence is fixed by the standard; distributions are not
   std::vector<Pose> map_from_body_;  ///< the particles
-  std::optional<Pose> last_odometry_;
+  std::optional<OdometryReading> last_odometry_;
   std::int64_t last_ns_ = 0;
 };
 

@@ -62,9 +62,9 @@ double parallax_px(const CameraMotion& motion, const CameraIntrinsics& camera, c
 
 /// The ideal pinhole's pixels: what is here never distorts.
 Eigen::Vector2d project(const CameraIntrinsics& camera, const Eigen::Vector3d& point_in_camera);
-/// The ray through a pixel, normalised so that z = 1.
 /// Of project().
 Eigen::Matrix<double, 2, 3> d_pixel_d_point(const CameraIntrinsics& camera, const Eigen::Vector3d& point_in_camera);
+/// The ray through a pixel, normalised so that z = 1.
 Eigen::Vector3d ray_through(const CameraIntrinsics& camera, const Eigen::Vector2d& pixel);
 
 }  // namespace plumbline
