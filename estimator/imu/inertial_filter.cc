@@ -36,6 +36,9 @@ Eigen::MatrixXd lifted_to_the_middle(const Eigen::MatrixXd& information) {
   return eigen.vectors * eigen.values.cwiseMax(middle).asDiagonal() * eigen.vectors.transpose();
 }
 
+/// R = exp(a) R^, p = exp(a) p^ + b as a transform on the left.
+Pose exp_left(const Vector6d& error) { return {exp_so3(error.head<3>()), error.tail<3>()}; }
+
 }  // namespace
 
 InertialFilter::InertialFilter(const InitialState& start, const ImuNoise& noise, bool remapping)
@@ -55,14 +58,16 @@ InertialFilter::InertialFilter(const InitialState& start, const ImuNoise& noise,
       .setConstant(bias_variance + squared(start.tilt_sigma * kStandardGravity));
   // The mean force's length also gave the bias along gravity.
   const Eigen::Vector3d up_in_body = world_from_body.transpose().col(2);
-  // What the gyro bias is wrong by has turned the heading ever since the first sample.
-  const Eigen::Matrix3d& attitude_from_bias = start.d_attitude_d_gyro_bias;
-  covariance_.block<3, 3>(kAttitude, kGyroBias) = attitude_from_bias * start.gyro_bias_covariance;
-  covariance_.block<3, 3>(kGyroBias, kAttitude) = covariance_.block<3, 3>(kAttitude, kGyroBias).transpose();
-  covariance_.block<3, 3>(kAttitude, kAttitude) =
-      attitude_from_bias * start.gyro_bias_covariance * attitude_from_bias.transpose();
   const double known = std::max(0.0, bias_variance - squared(start.tilt_sigma * kStandardGravity));
   covariance_.block<3, 3>(kAccelBias, kAccelBias) -= known * up_in_body * up_in_body.transpose();
+  // What the gyro bias is wrong by has turned the heading ever since the first sample, about where the body is now.
+  Eigen::Matrix<double, 9, 3> moving_from_bias;
+  moving_from_bias.topRows<3>() = world_from_body * start.d_attitude_d_gyro_bias;
+  moving_from_bias.middleRows<3>(kPosition) = skew(state_.world_from_body.translation) * moving_from_bias.topRows<3>();
+  moving_from_bias.middleRows<3>(kVelocity) = skew(state_.velocity_in_world) * moving_from_bias.topRows<3>();
+  covariance_.block<9, 3>(0, kGyroBias) = moving_from_bias * start.gyro_bias_covariance;
+  covariance_.block<3, 9>(kGyroBias, 0) = covariance_.block<9, 3>(0, kGyroBias).transpose();
+  covariance_.topLeftCorner<9, 9>() += moving_from_bias * start.gyro_bias_covariance * moving_from_bias.transpose();
   set_keyframe(state_.world_from_body);
   set_past();
 }
@@ -74,29 +79,26 @@ void InertialFilter::predict(const InertialSegment& segment) {
   const Eigen::Vector3d force = segment.force - state_.accel_bias;
   const Eigen::Matrix3d r = state_.world_from_body.rotation.toRotationMatrix();
   const NavigationState next = mechanize(state_, segment);
-  const Eigen::Matrix3d body_now_from_before =
-      (next.world_from_body.rotation.conjugate() * state_.world_from_body.rotation).toRotationMatrix();
 
-  // Transition of the error state without the poses that rest.
-  constexpr int kMoving = kKeyframe;
+  // Transition of the error state without what rests in the world: map and past poses.
+  constexpr int kMoving = kMap;
   constexpr int kResting = kSize - kMoving;
+  // An attitude's error turns velocity and position about the origin.
+  Eigen::Matrix<double, 9, 3> turned;
+  turned.topRows<3>().setIdentity();
+  turned.middleRows<3>(kPosition) = skew(next.world_from_body.translation);
+  turned.middleRows<3>(kVelocity) = skew(next.velocity_in_world);
   Eigen::Matrix<double, kMoving, kMoving> f = Eigen::Matrix<double, kMoving, kMoving>::Identity();
-  f.block<3, 3>(kAttitude, kAttitude) = body_now_from_before;
-  f.block<3, 3>(kAttitude, kGyroBias) = -h * right_jacobian_so3(h * rate);
-  const Eigen::Matrix3d d_velocity_d_attitude = -h * r * skew(force);
+  const Eigen::Matrix3d d_velocity_d_attitude = h * skew(state_.gravity_in_world);
   f.block<3, 3>(kVelocity, kAttitude) = d_velocity_d_attitude;
   f.block<3, 3>(kVelocity, kAccelBias) = -h * r;
   f.block<3, 2>(kVelocity, kGravity) = h * Eigen::Matrix3d::Identity().leftCols<2>();
-  const Eigen::Matrix3d body_now_from_world = next.world_from_body.rotation.conjugate().toRotationMatrix();
-  f.block<3, 3>(kPosition, kPosition) = body_now_from_before;
-  f.block<3, 3>(kPosition, kAttitude) = 0.5 * h * body_now_from_world * d_velocity_d_attitude;
-  f.block<3, 3>(kPosition, kVelocity) = h * body_now_from_world;
-  f.block<3, 3>(kPosition, kAccelBias) = -0.5 * h * h * body_now_from_world * r;
-  f.block<3, 2>(kPosition, kGravity) = 0.5 * h * h * body_now_from_world.leftCols<2>();
-
-  // The map rests in the world, and so its offset moves as seen from the body.
-  const Matrix6d carry = adjoint(next.world_from_body.inverse() * state_.world_from_body);
-  f.block<6, 6>(kMap, kMap) = carry;
+  f.block<3, 3>(kPosition, kAttitude) = 0.5 * h * d_velocity_d_attitude;
+  f.block<3, 3>(kPosition, kVelocity) = h * Eigen::Matrix3d::Identity();
+  f.block<3, 3>(kPosition, kAccelBias) = -0.5 * h * h * r;
+  f.block<3, 2>(kPosition, kGravity) = 0.5 * h * h * Eigen::Matrix3d::Identity().leftCols<2>();
+  f.block<9, 3>(0, kGyroBias) =
+      turned * (-h * next.world_from_body.rotation.toRotationMatrix() * right_jacobian_so3(h * rate));
 
   auto moving = covariance_.topLeftCorner<kMoving, kMoving>();
   moving = (f * moving * f.transpose()).eval();
@@ -104,24 +106,29 @@ void InertialFilter::predict(const InertialSegment& segment) {
   cross = (f * cross).eval();
   covariance_.bottomLeftCorner<kResting, kMoving>() = cross.transpose();
 
+  const double push = (r * force + state_.gravity_in_world).norm();
+  const double misread_rate = kShapeError * rate.norm() + kPushedRate * push;
+  const double turn_density = std::hypot(kDensityMargin * noise_.gyro_density, std::sqrt(kSwing_s) * misread_rate);
+  moving.topLeftCorner<9, 9>() += squared(turn_density) * h * turned * turned.transpose();
   const auto add_noise = [&](int block, double density) {
     moving.block<3, 3>(block, block).diagonal().array() += squared(density) * h;
   };
-  const double push = (r * force + state_.gravity_in_world).norm();
-  const double misread_rate = kShapeError * rate.norm() + kPushedRate * push;
-  add_noise(kAttitude, std::hypot(kDensityMargin * noise_.gyro_density, std::sqrt(kSwing_s) * misread_rate));
   add_noise(kVelocity, std::hypot(kDensityMargin * noise_.accel_density, std::sqrt(kSwing_s) * kShapeError * push));
   add_noise(kGyroBias, noise_.gyro_random_walk);
   add_noise(kAccelBias, noise_.accel_random_walk);
   symmetrize();
   state_ = next;
-  map_offset_ = carry * map_offset_;
 }
 
-InertialFilter::Jacobian InertialFilter::map_jacobian() {
+Matrix6d InertialFilter::pose_covariance() const {
+  const Matrix6d body_from_world = adjoint(state_.world_from_body.inverse());
+  return body_from_world * covariance_.topLeftCorner<6, 6>() * body_from_world.transpose();
+}
+
+/// map_from_body = exp(map's error + body's error) of the estimate.
+InertialFilter::Jacobian InertialFilter::map_jacobian() const {
   Jacobian j = Jacobian::Zero();
-  j.leftCols<6>().setIdentity();
-  j.middleCols<6>(kMap).setIdentity();
+  j.leftCols<6>() = j.middleCols<6>(kMap) = adjoint(map_from_body().inverse());
   return j;
 }
 
@@ -140,31 +147,32 @@ void InertialFilter::renew_map(double share, const Matrix6d& systematic) {
   renewed.block<6, 6>(kMap, kMap) *= 1.0 - share;
   renewed.block<6, 6>(kMap, 0).diagonal().setConstant(-share);
   covariance_ = (renewed * covariance_ * renewed.transpose()).eval();
-  covariance_.block<6, 6>(kMap, kMap) += systematic;
+  const Matrix6d map_from_errors = adjoint(map_from_body());
+  covariance_.block<6, 6>(kMap, kMap) += map_from_errors * systematic * map_from_errors.transpose();
   symmetrize();
 }
 
 void InertialFilter::update_keyframe_motion(const SolveResult& solved, const Pose& predicted, double inflation) {
   Vector6d along = Vector6d::Zero();
   along.tail<3>() = kSharedDepthError * (solved.pose.rotation.conjugate() * solved.pose.translation);
-  update(solved, predicted, motion_jacobian(world_from_keyframe_, kKeyframe), inflation, along * along.transpose());
+  update(solved, predicted, motion_jacobian(kKeyframe), inflation, along * along.transpose());
 }
 
-/// clone_from_body retracted by (-Ad(body_from_clone) clone's error + body error).
-InertialFilter::Jacobian InertialFilter::motion_jacobian(const Pose& world_from_clone, int clone) const {
+/// clone_from_body = estimate exp(Ad(body_from_world) (body's error - clone's error)).
+InertialFilter::Jacobian InertialFilter::motion_jacobian(int clone) const {
   Jacobian j = Jacobian::Zero();
-  j.leftCols<6>().setIdentity();
-  j.middleCols<6>(clone) = -adjoint(state_.world_from_body.inverse() * world_from_clone);
+  j.leftCols<6>() = adjoint(state_.world_from_body.inverse());
+  j.middleCols<6>(clone) = -j.leftCols<6>();
   return j;
 }
 
 Matrix6d InertialFilter::keyframe_motion_covariance() const {
-  const Jacobian j = motion_jacobian(world_from_keyframe_, kKeyframe);
+  const Jacobian j = motion_jacobian(kKeyframe);
   return j * covariance_ * j.transpose();
 }
 
 Matrix6d InertialFilter::past_motion_covariance() const {
-  const Jacobian j = motion_jacobian(world_from_past_, kPast);
+  const Jacobian j = motion_jacobian(kPast);
   return j * covariance_ * j.transpose();
 }
 
@@ -207,16 +215,19 @@ void InertialFilter::update(const SolveResult& solved, const Pose& predicted, co
 void InertialFilter::symmetrize() { covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval(); }
 
 void InertialFilter::apply(const ErrorState& correction) {
-  state_.world_from_body = state_.world_from_body.retract(correction.segment<6>(kAttitude));
-  state_.velocity_in_world += correction.segment<3>(kVelocity);
+  const Pose corrected_from_world = exp_left(correction.segment<6>(kAttitude));
+  state_.world_from_body = corrected_from_world * state_.world_from_body;
+  state_.velocity_in_world =
+      corrected_from_world.rotation * state_.velocity_in_world + correction.segment<3>(kVelocity);
   state_.gyro_bias += correction.segment<3>(kGyroBias);
   state_.accel_bias += correction.segment<3>(kAccelBias);
   const Eigen::Vector2d lean = state_.gravity_in_world.head<2>() + correction.segment<2>(kGravity);
   const double down = std::sqrt(std::max(0.0, squared(kStandardGravity) - lean.squaredNorm()));
   state_.gravity_in_world << lean, -down;
-  map_offset_ += correction.segment<6>(kMap);
-  world_from_keyframe_ = world_from_keyframe_.retract(correction.segment<6>(kKeyframe));
-  world_from_past_ = world_from_past_.retract(correction.segment<6>(kPast));
+  map_from_world_ = exp_left(correction.segment<6>(kAttitude) + correction.segment<6>(kMap)) * map_from_world_ *
+                    corrected_from_world.inverse();
+  world_from_keyframe_ = exp_left(correction.segment<6>(kKeyframe)) * world_from_keyframe_;
+  world_from_past_ = exp_left(correction.segment<6>(kPast)) * world_from_past_;
 }
 
 void InertialFilter::set_keyframe(const Pose& world_from_body) {

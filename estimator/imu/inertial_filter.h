@@ -17,9 +17,14 @@ namespace plumbline {
 /// absolute fix scan by scan, ten a second, it would soon hold the attitude so firmly that gravity could not correct
 /// it.
 ///
-/// Error state: [attitude, position (both right perturbations in B), velocity in W, gyro bias, accel bias,
-/// gravity's x and y in W, the map's offset (attitude and position, seen from B), key-frame attitude and position, the
-/// pose some time ago: attitude and position].
+/// Errors are those of a left perturbation, seen from the world's origin: R = exp(a) R^, p = exp(a) p^ + b,
+/// v = exp(a) v^ + c (the right-invariant error of Barrau and Bonnabel, "The invariant extended Kalman filter as a
+/// stable observer", 2017). What no sensor can tell, where the world lies and which way it is turned, is then the same
+/// direction of the error state whatever the state is. With errors in the body's axes it moves with the estimate, and
+/// every correction makes the filter surer of a heading and a place that nothing has shown.
+///
+/// Error state: [attitude, position, velocity, gyro bias, accel bias, gravity's x and y in W, the map's offset
+/// (attitude and position), key-frame attitude and position, the pose some time ago: attitude and position].
 class InertialFilter {
  public:
   static constexpr int kAttitude = 0;
@@ -59,9 +64,10 @@ class InertialFilter {
   const NavigationState& state() const { return state_; }
   const Pose& world_from_keyframe() const { return world_from_keyframe_; }
   const Covariance& covariance() const { return covariance_; }
-  Matrix6d pose_covariance() const { return covariance_.topLeftCorner<6, 6>(); }
+  /// Of world_from_body, right perturbation; so are all others that are given out or taken.
+  Matrix6d pose_covariance() const;
   /// Where the body stands in the map, whose content may be off by what it took over from earlier poses.
-  Pose map_from_body() const { return state_.world_from_body.retract(map_offset_); }
+  Pose map_from_body() const { return map_from_world_ * state_.world_from_body; }
   Matrix6d map_from_body_covariance() const;
   /// Of keyframe_from_body, right perturbation.
   Matrix6d keyframe_motion_covariance() const;
@@ -70,8 +76,8 @@ class InertialFilter {
 
  private:
   using Jacobian = Eigen::Matrix<double, 6, kSize>;
-  static Jacobian map_jacobian();
-  Jacobian motion_jacobian(const Pose& world_from_clone, int clone) const;
+  Jacobian map_jacobian() const;
+  Jacobian motion_jacobian(int clone) const;
   void clone_pose(int clone);
   /// @param shared  covariance of what all rows err by alike, right perturbation of the solved pose
   void update(const SolveResult& solved, const Pose& predicted, const Jacobian& d_pose_d_error, double inflation,
@@ -82,7 +88,7 @@ class InertialFilter {
   NavigationState state_;
   Pose world_from_keyframe_;
   Pose world_from_past_;
-  Vector6d map_offset_ = Vector6d::Zero();
+  Pose map_from_world_;
   ImuNoise noise_;
   bool remapping_ = true;
   Covariance covariance_ = Covariance::Zero();

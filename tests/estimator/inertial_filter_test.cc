@@ -267,6 +267,70 @@ TEST(InertialFilter, TheHeadingFollowsWhatTheStartDidNotKnowOfTheBias) {
   EXPECT_LT(log_so3(filter.state().world_from_body.rotation).norm(), 0.2 * kUnknownBias);
 }
 
+/// Speeds up to 30 m/s on a winding road, brakes and stands, with nothing but motions since key-frames.
+/// @param key_frame_turn_rad  by which all motions since one key-frame err alike, about each axis at random
+/// @returns the sigma that the filter gives the place across its way [m]
+double sigma_after_a_drive(double key_frame_turn_rad) {
+  constexpr double kStep_s = 5e-3;
+  constexpr double kAcceleration = 3.0;
+  constexpr double kHalt_s = 25.0;
+  InitialState start;
+  start.tilt_sigma = 5e-3;
+  start.gyro_bias_covariance.diagonal().setConstant(1e-8);
+  start.velocity_sigma = 1e-3;
+  InertialFilter filter(start, ImuNoise{}, true);
+  RandomStream random(1, "key-frames");
+  const auto speed = [](double t) {
+    return t < 10.0 ? kAcceleration * t : std::clamp(kAcceleration * (kHalt_s - t), 0.0, 30.0);
+  };
+  const auto rate = [&](double t) { return speed(t) > 1.0 ? 0.2 * std::sin(0.6 * t) : 0.0; };
+  SolveResult fix;
+  fix.information.diagonal() << Eigen::Vector3d::Constant(1.0 / (2e-5 * 2e-5)),
+      Eigen::Vector3d::Constant(1.0 / (1e-4 * 1e-4));
+  fix.spectrum.eigenvalues = fix.information.diagonal();
+  fix.spectrum.well_conditioned = 6;
+  Vector6d shared = Vector6d::Zero();
+  double yaw = 0.0;
+  Pose body;
+  Pose keyframe;
+  for (int k = 1; k <= 5600; ++k) {
+    InertialSegment segment;
+    segment.start_ns = filter.state().stamp_ns;
+    segment.end_ns = segment.start_ns + 5'000'000;
+    const double t = kStep_s * (k - 0.5);
+    const double before = speed(t - 0.5 * kStep_s);
+    const double after = speed(t + 0.5 * kStep_s);
+    segment.rate = {0.0, 0.0, rate(t)};
+    segment.force = {(after - before) / kStep_s, rate(t) * 0.5 * (before + after), kStandardGravity};
+    const double middle_yaw = yaw + 0.5 * kStep_s * rate(t);
+    yaw += kStep_s * rate(t);
+    body.translation +=
+        0.5 * kStep_s * (before + after) * Eigen::Vector3d(std::cos(middle_yaw), std::sin(middle_yaw), 0.0);
+    body.rotation = exp_so3({0.0, 0.0, yaw});
+    filter.predict(segment);
+    if (k % 8 == 0) {
+      fix.pose = (keyframe.inverse() * body).retract(shared);
+      filter.update_keyframe_motion(fix, filter.world_from_keyframe().inverse() * filter.state().world_from_body, 1.0);
+    }
+    if (k % 144 == 0) {
+      filter.set_keyframe(filter.state().world_from_body);
+      keyframe = body;
+      for (int i = 0; i < 3; ++i) shared[i] = key_frame_turn_rad * random.gaussian();
+    }
+  }
+  return std::sqrt(filter.pose_covariance()(4, 4));
+}
+
+/// Whatever it corrects on its way, no motion since a key-frame tells where the world lies or which way it is turned.
+/// With errors counted in the body's axes a drive of corrections made it a fifth surer than one without, and over 700 m
+/// of motorway so sure that it jumped by decimetres when it came to stand.
+TEST(InertialFilter, ItsOwnCorrectionsDoNotMakeItSurer) {
+  const double undisturbed = sigma_after_a_drive(0.0);
+  const double corrected = sigma_after_a_drive(3e-4);
+  // Corrections change the way, and with it what its errors come to, by a thousandth or so.
+  EXPECT_NEAR(corrected / undisturbed, 1.0, 0.02);
+}
+
 TEST(InertialFilter, TheMotionSinceThePastPoseStartsCertainAndGrows) {
   Flight run = run_with_fixes(2, 5.0);
   run.filter.set_past();
