@@ -18,6 +18,13 @@ using Source = FiringNoise::Source;
 constexpr double kCertain = 2.1;
 constexpr std::size_t kTogether = LidarCaster::kMostTogether;
 
+// std::round, which is no instruction of the processor's, of what is less than 2^52.
+double rounded(double value) {
+  const auto whole = static_cast<double>(static_cast<std::int64_t>(value));
+  const double rest = value - whole;
+  return rest >= 0.5 ? whole + 1.0 : rest <= -0.5 ? whole - 1.0 : whole;
+}
+
 std::int64_t nanoseconds(std::int64_t picoseconds) { return (picoseconds + 500) / 1000; }
 
 void require_cover(const PoseTrack& track, std::int64_t start_ns, std::int64_t end_ns) {
@@ -225,7 +232,7 @@ void Lidar::add_point(const LidarEcho& echo, Source source, const Firing& firing
   if (effects_.range_noise)
     range_m += firing.noise.gaussian(source) * signal_.range_sigma_m(echo.strength, echo.spread_m);
   const double resolution_m = model_.range_resolution_m;
-  if (effects_.quantisation && resolution_m > 0.0) range_m = resolution_m * std::round(range_m / resolution_m);
+  if (effects_.quantisation && resolution_m > 0.0) range_m = resolution_m * rounded(range_m / resolution_m);
   if (range_m < model_.min_range_m || range_m > model_.max_range_m) return;
 
   const FiringPattern::Beam& beam = pattern_.beams()[firing.beam];

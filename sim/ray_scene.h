@@ -32,11 +32,11 @@ class RayWindow {
   friend class RayScene;
   struct NearMover;
 
-  RayHit on_planes(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double min_range_m,
-                   double max_range_m) const;
-  /// @param best  of what stands still
-  RayHit among_movers(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double min_range_m,
-                      double time_s, const RayHit& best) const;
+  /// Both put a nearer hit in the place of `best`.
+  void cast_on_planes(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double min_range_m,
+                      RayHit& best) const;
+  void cast_on_movers(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double min_range_m,
+                      double time_s, RayHit& best) const;
 
   const RayScene* scene_ = nullptr;
   std::shared_ptr<const RaySurfaces> standing_;
