@@ -1,6 +1,7 @@
 #include "sensors/lidar.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -15,6 +16,14 @@ using Source = FiringNoise::Source;
 
 // Beyond this strength a loss is less likely than one in ten million.
 constexpr double kCertain = 2.1;
+constexpr std::size_t kTogether = LidarCaster::kMostTogether;
+
+// std::round, which is no instruction of the processor's, of what is less than 2^52.
+double rounded(double value) {
+  const auto whole = static_cast<double>(static_cast<std::int64_t>(value));
+  const double rest = value - whole;
+  return rest >= 0.5 ? whole + 1.0 : rest <= -0.5 ? whole - 1.0 : whole;
+}
 
 std::int64_t nanoseconds(std::int64_t picoseconds) { return (picoseconds + 500) / 1000; }
 
@@ -66,15 +75,18 @@ LidarScan Lidar::scan(const Surroundings& surroundings, const PoseTrack& world_f
   const std::uint64_t key = mix_bits(seed_ ^ mix_bits(static_cast<std::uint64_t>(scan_index)));
   scan.points.reserve(cycles.size() * beams.size());
   LidarEchoes echoes;
-  CastCycle before;
-  CastCycle at;
-  CastCycle after;
-  cast_centres(cycles.front(), caster, after);
+  // Cycles are cast some together, ahead of the one that reports; the one before it is kept.
+  std::array<CastCycle, 3 * kTogether> cast;
+  std::size_t cast_until = 0;
   for (std::size_t k = 0; k < cycles.size(); ++k) {
-    std::swap(before, at);
-    std::swap(at, after);
-    after.cycle = nullptr;
-    if (k + 1 < cycles.size()) cast_centres(cycles[k + 1], caster, after);
+    while (cast_until < std::min(k + 2, cycles.size())) {
+      const std::size_t count = std::min(kTogether, cycles.size() - cast_until);
+      cast_centres({&cycles[cast_until], count}, caster, {&cast[cast_until % cast.size()], count});
+      cast_until += count;
+    }
+    const CastCycle& at = cast[k % cast.size()];
+    const CastCycle* before = k > 0 ? &cast[(k - 1) % cast.size()] : nullptr;
+    const CastCycle* after = k + 1 < cycles.size() ? &cast[(k + 1) % cast.size()] : nullptr;
     for (std::size_t beam = 0; beam < beams.size(); ++beam) {
       if (!fires(cycles[k], beams[beam])) continue;
       const Firing firing{before,
@@ -96,15 +108,29 @@ bool Lidar::fires(const FiringPattern::Cycle& cycle, const FiringPattern::Beam& 
   return time_ps >= 0 && time_ps < pattern_.message_ps();
 }
 
-void Lidar::cast_centres(const FiringPattern::Cycle& cycle, LidarCaster& caster, CastCycle& cast) const {
+// A beam looks about the same way from one cycle to the next: that makes the packets.
+void Lidar::cast_centres(std::span<const FiringPattern::Cycle> cycles, LidarCaster& caster,
+                         std::span<CastCycle> cast) const {
   const std::vector<FiringPattern::Beam>& beams = pattern_.beams();
-  cast.cycle = &cycle;
-  cast.motion = caster.motion_of(cycle);
-  cast.hits.assign(beams.size(), {});
+  for (std::size_t k = 0; k < cycles.size(); ++k) {
+    cast[k].cycle = &cycles[k];
+    cast[k].motion = caster.motion_of(cycles[k]);
+    cast[k].hits.assign(beams.size(), {});
+  }
+  std::array<LidarCaster::Shot, kTogether> shots;
+  std::array<std::size_t, kTogether> cycle_of_shot;
+  std::array<LidarHit, kTogether> hits;
   for (std::size_t i = 0; i < beams.size(); ++i) {
-    if (!fires(cycle, beams[i])) continue;
-    const HeadRay ray{beams[i].origin_in_head, beams[i].direction_in_head};
-    cast.hits[i] = caster.cast(cast.motion, ray, cycle.offset_ps + beams[i].offset_ps);
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < cycles.size(); ++k) {
+      if (!fires(cycles[k], beams[i])) continue;
+      cycle_of_shot[count] = k;
+      shots[count++] = {&cast[k].motion,
+                        {beams[i].origin_in_head, beams[i].direction_in_head},
+                        cycles[k].offset_ps + beams[i].offset_ps};
+    }
+    caster.cast({shots.data(), count}, hits);
+    for (std::size_t shot = 0; shot < count; ++shot) cast[cycle_of_shot[shot]].hits[i] = hits[shot];
   }
 }
 
@@ -127,8 +153,8 @@ void Lidar::find_echoes(const Firing& firing, const LidarAir& air, const LidarCa
 bool Lidar::meets_an_edge(const Firing& firing, const LidarCaster& caster) const {
   const FiringPattern::Beam& beam = pattern_.beams()[firing.beam];
   const LidarHit& centre = firing.at.hits[firing.beam];
-  const auto goes_on = [&](const CastCycle& neighbour) {
-    return neighbour.cycle == nullptr || centre.continues_in(neighbour.hits[firing.beam]);
+  const auto goes_on = [&](const CastCycle* neighbour) {
+    return neighbour == nullptr || centre.continues_in(neighbour->hits[firing.beam]);
   };
   const auto goes_on_in = [&](int neighbour) {
     return neighbour < 0 || centre.continues_in(firing.at.hits[static_cast<std::size_t>(neighbour)]);
@@ -147,13 +173,22 @@ bool Lidar::meets_an_edge(const Firing& firing, const LidarCaster& caster) const
 void Lidar::add_sub_rays(const Firing& firing, const LidarAir& air, const LidarCaster& caster,
                          LidarEchoes& echoes) const {
   const FiringPattern::Beam& beam = pattern_.beams()[firing.beam];
-  for (const Eigen::Vector2d& place : footprint_.places(firing.noise.uniform(Source::kFootprint))) {
-    LidarHit hit = caster.cast(firing.at.motion, footprint_.ray(beam, place), firing.time_ps);
-    if (hit.is_none()) continue;
-    hit.reflectivity /= LidarFootprint::kRays;
-    LidarEcho echo = echo_of(hit, air);
-    echo.spread_m = 0.0;  // the sub-rays' own spread stands for it
-    echoes.add(echo);
+  const LidarFootprint::Places places = footprint_.places(firing.noise.uniform(Source::kFootprint));
+  std::array<LidarCaster::Shot, kTogether> shots;
+  std::array<LidarHit, kTogether> hits;
+  for (std::size_t first = 0; first < places.size(); first += kTogether) {
+    const std::size_t count = std::min(kTogether, places.size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      shots[i] = {&firing.at.motion, footprint_.ray(beam, places[first + i]), firing.time_ps};
+    }
+    caster.cast({shots.data(), count}, hits);
+    for (LidarHit& hit : std::span(hits).first(count)) {
+      if (hit.is_none()) continue;
+      hit.reflectivity /= LidarFootprint::kRays;
+      LidarEcho echo = echo_of(hit, air);
+      echo.spread_m = 0.0;  // the sub-rays' own spread stands for it
+      echoes.add(echo);
+    }
   }
   echoes.merge(echo_resolution_m_);
 }
@@ -197,7 +232,7 @@ void Lidar::add_point(const LidarEcho& echo, Source source, const Firing& firing
   if (effects_.range_noise)
     range_m += firing.noise.gaussian(source) * signal_.range_sigma_m(echo.strength, echo.spread_m);
   const double resolution_m = model_.range_resolution_m;
-  if (effects_.quantisation && resolution_m > 0.0) range_m = resolution_m * std::round(range_m / resolution_m);
+  if (effects_.quantisation && resolution_m > 0.0) range_m = resolution_m * rounded(range_m / resolution_m);
   if (range_m < model_.min_range_m || range_m > model_.max_range_m) return;
 
   const FiringPattern::Beam& beam = pattern_.beams()[firing.beam];

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "estimator/geometry/interpolation.h"
@@ -64,22 +65,22 @@ class Lidar {
  private:
   /// A cycle of the head, and what its beams' centre rays meet.
   struct CastCycle {
-    const FiringPattern::Cycle* cycle = nullptr;  ///< nullptr: none
+    const FiringPattern::Cycle* cycle = nullptr;
     HeadMotion motion;
     std::vector<LidarHit> hits;  ///< per beam
   };
   /// One laser's, among those around it in time.
   struct Firing {
-    const CastCycle& before;
+    const CastCycle* before = nullptr;  ///< nullptr: none in this message
     const CastCycle& at;
-    const CastCycle& after;
+    const CastCycle* after = nullptr;
     std::size_t beam = 0;
     std::int64_t time_ps = 0;  ///< since the message's start
     FiringNoise noise;
   };
 
   bool fires(const FiringPattern::Cycle& cycle, const FiringPattern::Beam& beam) const;
-  void cast_centres(const FiringPattern::Cycle& cycle, LidarCaster& caster, CastCycle& cast) const;
+  void cast_centres(std::span<const FiringPattern::Cycle> cycles, LidarCaster& caster, std::span<CastCycle> cast) const;
   void find_echoes(const Firing& firing, const LidarAir& air, const LidarCaster& caster, LidarEchoes& echoes) const;
   bool meets_an_edge(const Firing& firing, const LidarCaster& caster) const;
   void add_sub_rays(const Firing& firing, const LidarAir& air, const LidarCaster& caster, LidarEchoes& echoes) const;

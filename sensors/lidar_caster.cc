@@ -1,6 +1,7 @@
 #include "sensors/lidar_caster.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace plumbline {
@@ -29,7 +30,9 @@ LidarCaster::LidarCaster(const Surroundings& surroundings, const OwnBody* own_bo
       max_range_m_(max_range_m),
       place_((world_from_body.at(start_ns) * body_from_lidar).translation),
       window_(surroundings.rays.window(place_, max_range_m, 1e-9 * static_cast<double>(start_ns))) {
-  if (own_body_) vehicle_from_lidar_ = own_body_->body_from_vehicle.inverse() * body_from_lidar_;
+  if (!own_body_) return;
+  vehicle_from_lidar_ = own_body_->body_from_vehicle.inverse() * body_from_lidar_;
+  own_window_ = own_body_->rays.window(vehicle_from_lidar_.translation, max_range_m_);
 }
 
 Pose LidarCaster::world_from_lidar(std::int64_t time_ps) const {
@@ -65,7 +68,7 @@ LidarHit LidarCaster::hit_on(const World& world, const RayHit& hit, const Ray& r
 LidarHit LidarCaster::hit_on_vehicle(const HeadMotion& motion, const HeadRay& ray, double max_range_m) const {
   const Ray in_vehicle{motion.vehicle_from_head * ray.origin_in_head + vehicle_from_lidar_.translation,
                        motion.vehicle_from_head * ray.direction_in_head};
-  const RayHit hit = own_body_->rays.cast(in_vehicle.origin, in_vehicle.direction, 0.0, max_range_m);
+  const RayHit hit = own_window_->cast(in_vehicle.origin, in_vehicle.direction, 0.0, max_range_m, 0.0);
   if (!hit.hit) return {};
   LidarHit found = hit_on(own_body_->world, hit, in_vehicle);
   const Eigen::Matrix3d world_from_vehicle = motion.rotation * motion.vehicle_from_head.transpose();
@@ -73,13 +76,19 @@ LidarHit LidarCaster::hit_on_vehicle(const HeadMotion& motion, const HeadRay& ra
   return found;
 }
 
-LidarHit LidarCaster::cast(const HeadMotion& motion, const HeadRay& ray, std::int64_t time_ps) const {
+LidarCaster::Ray LidarCaster::in_world(const HeadMotion& motion, const HeadRay& ray, std::int64_t time_ps) const {
   const double ratio = motion.per_ps * static_cast<double>(time_ps - motion.begin_ps);
   const Eigen::Matrix3d rotation = motion.rotation + ratio * motion.rotation_change;
-  const Ray in_world{rotation * ray.origin_in_head + motion.translation + ratio * motion.translation_change,
-                     rotation * ray.direction_in_head};
-  const double time_s = 1e-9 * static_cast<double>(start_ns_) + 1e-12 * static_cast<double>(time_ps);
-  const RayHit hit = window_.cast(in_world.origin, in_world.direction, 0.0, max_range_m_, time_s);
+  return {rotation * ray.origin_in_head + motion.translation + ratio * motion.translation_change,
+          rotation * ray.direction_in_head};
+}
+
+double LidarCaster::seconds(std::int64_t time_ps) const {
+  return 1e-9 * static_cast<double>(start_ns_) + 1e-12 * static_cast<double>(time_ps);
+}
+
+LidarHit LidarCaster::first_hit(const HeadMotion& motion, const HeadRay& ray, const Ray& in_world,
+                                const RayHit& hit) const {
   LidarHit found;
   if (hit.hit) {
     found = hit_on(surroundings_.world, hit, in_world);
@@ -95,6 +104,28 @@ LidarHit LidarCaster::cast(const HeadMotion& motion, const HeadRay& ray, std::in
   if (!found.is_none())
     found.point = (in_world.origin - place_ + double{found.range_m} * in_world.direction).cast<float>();
   return found;
+}
+
+LidarHit LidarCaster::cast(const HeadMotion& motion, const HeadRay& ray, std::int64_t time_ps) const {
+  const Ray cast_ray = in_world(motion, ray, time_ps);
+  return first_hit(motion, ray, cast_ray,
+                   window_.cast(cast_ray.origin, cast_ray.direction, 0.0, max_range_m_, seconds(time_ps)));
+}
+
+void LidarCaster::cast(std::span<const Shot> shots, std::span<LidarHit> hits) const {
+  RayPacket rays;
+  rays.size = shots.size();
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    const Ray ray = in_world(*shots[i].motion, shots[i].ray, shots[i].time_ps);
+    rays.origins[i] = ray.origin;
+    rays.directions[i] = ray.direction;
+    rays.times_s[i] = seconds(shots[i].time_ps);
+  }
+  std::array<RayHit, RayPacket::kMost> found;
+  window_.cast(rays, 0.0, max_range_m_, found);
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    hits[i] = first_hit(*shots[i].motion, shots[i].ray, {rays.origins[i], rays.directions[i]}, found[i]);
+  }
 }
 
 }  // namespace plumbline

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
+#include <span>
 
 #include "estimator/geometry/interpolation.h"
 #include "sensors/lidar_footprint.h"
@@ -51,6 +53,16 @@ class LidarCaster {
   /// @param time_ps  since the message's start, within the cycle
   LidarHit cast(const HeadMotion& motion, const HeadRay& ray, std::int64_t time_ps) const;
 
+  struct Shot {
+    const HeadMotion* motion = nullptr;
+    HeadRay ray;
+    std::int64_t time_ps = 0;
+  };
+  static constexpr std::size_t kMostTogether = RayPacket::kMost;
+  /// The same for each of some shots, at most kMostTogether, and the same hits: cheapest for those that go about the
+  /// same way.
+  void cast(std::span<const Shot> shots, std::span<LidarHit> hits) const;
+
  private:
   struct Ray {
     Eigen::Vector3d origin;
@@ -58,8 +70,12 @@ class LidarCaster {
   };
 
   Pose world_from_lidar(std::int64_t time_ps) const;
+  Ray in_world(const HeadMotion& motion, const HeadRay& ray, std::int64_t time_ps) const;
+  double seconds(std::int64_t time_ps) const;
   LidarHit hit_on(const World& world, const RayHit& hit, const Ray& ray) const;
   LidarHit hit_on_vehicle(const HeadMotion& motion, const HeadRay& ray, double max_range_m) const;
+  /// @param hit  on the world
+  LidarHit first_hit(const HeadMotion& motion, const HeadRay& ray, const Ray& in_world, const RayHit& hit) const;
 
   const Surroundings& surroundings_;
   const OwnBody* own_body_;
@@ -71,6 +87,7 @@ class LidarCaster {
   const double max_range_m_;
   const Eigen::Vector3d place_;  ///< of the lidar as the message starts
   const RayWindow window_;
+  std::optional<RayWindow> own_window_;
   Pose vehicle_from_lidar_;
   std::int64_t end_ps_ = -1;  ///< of the last cycle asked for
   Pose world_from_lidar_at_end_;

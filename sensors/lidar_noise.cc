@@ -5,13 +5,7 @@
 
 namespace plumbline {
 
-double gaussian_quantile(double probability) {
-  const double q = probability - 0.5;
-  if (std::abs(q) <= 0.425) {
-    const double r = 0.180625 - q * q;
-    return q * (((59.109374720 * r + 159.29113202) * r + 50.434271938) * r + 3.3871327179) /
-           (((67.187563600 * r + 78.757757664) * r + 17.895169469) * r + 1.0);
-  }
+double gaussian_quantile_in_tail(double probability, double q) {
   double r = std::sqrt(-std::log(std::min(probability, 1.0 - probability)));
   double quantile = 0.0;
   if (r <= 5.0) {

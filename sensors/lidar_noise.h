@@ -1,14 +1,24 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "sim/random_stream.h"
 
 namespace plumbline {
 
+/// gaussian_quantile in its tails. @param q  probability - 0.5, more than 0.425 from 0
+double gaussian_quantile_in_tail(double probability, double q);
+
 /// The standard normal distribution's quantile of a probability in (0, 1), to 1e-6. Wichura, Applied Statistics 37(3),
 /// 1988, algorithm AS 241, PPND7.
-double gaussian_quantile(double probability);
+inline double gaussian_quantile(double probability) {
+  const double q = probability - 0.5;
+  if (std::abs(q) > 0.425) return gaussian_quantile_in_tail(probability, q);
+  const double r = 0.180625 - q * q;
+  return q * (((59.109374720 * r + 159.29113202) * r + 50.434271938) * r + 3.3871327179) /
+         (((67.187563600 * r + 78.757757664) * r + 17.895169469) * r + 1.0);
+}
 
 /// What one laser's firing draws. A draw depends on the firing and on what it is for, never on other draws, so a change
 /// in the world leaves the noise of what did not change as it was.

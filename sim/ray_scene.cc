@@ -77,6 +77,15 @@ bool ray_meets_ball(const Eigen::Vector3d& origin, const Eigen::Vector3d& direct
   return (to_centre - along * direction).squaredNorm() <= radius * radius;
 }
 
+// The normal looks towards the ray's side.
+void finish(const Eigen::Vector3d& direction, RayHit& hit) {
+  if (!hit.hit) {
+    hit = {};
+  } else if (hit.normal_in_world.dot(direction.cast<float>()) > 0.0F) {
+    hit.normal_in_world = -hit.normal_in_world;
+  }
+}
+
 }  // namespace
 
 struct RayScene::Impl {
@@ -162,30 +171,53 @@ RayWindow::RayWindow(const RayWindow&) = default;
 RayWindow& RayWindow::operator=(const RayWindow&) = default;
 RayWindow::~RayWindow() = default;
 
-RayHit RayWindow::cast(const Eigen::Vector3d& origin_in_world, const Eigen::Vector3d& direction_in_world,
-                       double min_range_m, double max_range_m, double time_s) const {
-  const RayScene::Impl& scene = *scene_->impl_;
-  RayHit best;
-  best.range_m = max_range_m;
-  for (const AnalyticSurface& plane : scene.infinite_planes) {
-    const auto hit = intersect(plane, origin_in_world, direction_in_world, min_range_m, best.range_m);
+void RayWindow::cast_on_planes(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double min_range_m,
+                               RayHit& best) const {
+  for (const AnalyticSurface& plane : scene_->impl_->infinite_planes) {
+    const auto hit = intersect(plane, origin, direction, min_range_m, best.range_m);
     if (hit) best = {true, hit->range_m, hit->normal_in_world.cast<float>(), plane.geom};
   }
-  standing_->cast(origin_in_world, direction_in_world, min_range_m, best);
+}
+
+void RayWindow::cast_on_movers(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double min_range_m,
+                               double time_s, RayHit& best) const {
+  const std::vector<MovingThing>& movers = scene_->impl_->movers;
   for (const NearMover& near : movers_) {
-    if (!ray_meets_ball(origin_in_world, direction_in_world, near.centre, near.reach_m, best.range_m)) continue;
-    const Pose mover_from_world = scene.movers[near.mover].path.at(time_s).inverse();
+    if (!ray_meets_ball(origin, direction, near.centre, near.reach_m, best.range_m)) continue;
+    const Pose mover_from_world = movers[near.mover].path.at(time_s).inverse();
     RayHit on_mover = best;
     on_mover.hit = false;
-    scene.movers[near.mover].surfaces->cast(mover_from_world * origin_in_world,
-                                            mover_from_world.rotation * direction_in_world, min_range_m, on_mover);
+    movers[near.mover].surfaces->cast(mover_from_world * origin, mover_from_world.rotation * direction, min_range_m,
+                                      on_mover);
     if (!on_mover.hit) continue;
     best = on_mover;
     best.normal_in_world = mover_from_world.rotation.conjugate().cast<float>() * best.normal_in_world;
   }
-  if (!best.hit) return {};
-  if (best.normal_in_world.dot(direction_in_world.cast<float>()) > 0.0F) best.normal_in_world = -best.normal_in_world;
+}
+
+RayHit RayWindow::cast(const Eigen::Vector3d& origin_in_world, const Eigen::Vector3d& direction_in_world,
+                       double min_range_m, double max_range_m, double time_s) const {
+  RayHit best;
+  best.range_m = max_range_m;
+  cast_on_planes(origin_in_world, direction_in_world, min_range_m, best);
+  standing_->cast(origin_in_world, direction_in_world, min_range_m, best);
+  cast_on_movers(origin_in_world, direction_in_world, min_range_m, time_s, best);
+  finish(direction_in_world, best);
   return best;
+}
+
+void RayWindow::cast(const RayPacket& rays, double min_range_m, double max_range_m,
+                     std::array<RayHit, RayPacket::kMost>& hits) const {
+  for (std::size_t i = 0; i < rays.size; ++i) {
+    hits[i] = RayHit();
+    hits[i].range_m = max_range_m;
+    cast_on_planes(rays.origins[i], rays.directions[i], min_range_m, hits[i]);
+  }
+  standing_->cast(rays, min_range_m, hits);
+  for (std::size_t i = 0; i < rays.size; ++i) {
+    cast_on_movers(rays.origins[i], rays.directions[i], min_range_m, rays.times_s[i], hits[i]);
+    finish(rays.directions[i], hits[i]);
+  }
 }
 
 RayScene::RayScene(const World& world) : impl_(std::make_unique<Impl>(world)) {}

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <memory>
 #include <vector>
 
 #include "sim/ray_hit.h"
+#include "sim/ray_packet.h"
 #include "sim/world.h"
 
 namespace plumbline {
@@ -22,10 +24,19 @@ class RayWindow {
   /// As RayScene::cast.
   RayHit cast(const Eigen::Vector3d& origin_in_world, const Eigen::Vector3d& direction_in_world, double min_range_m,
               double max_range_m, double time_s) const;
+  /// The same for each of a packet's rays, and the same hits.
+  void cast(const RayPacket& rays, double min_range_m, double max_range_m,
+            std::array<RayHit, RayPacket::kMost>& hits) const;
 
  private:
   friend class RayScene;
   struct NearMover;
+
+  /// Both put a nearer hit in the place of `best`.
+  void cast_on_planes(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double min_range_m,
+                      RayHit& best) const;
+  void cast_on_movers(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double min_range_m,
+                      double time_s, RayHit& best) const;
 
   const RayScene* scene_ = nullptr;
   std::shared_ptr<const RaySurfaces> standing_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "sim/analytic_surfaces.h"
 #include "sim/embree_device.h"
 #include "sim/ray_hit.h"
+#include "sim/ray_packet.h"
 #include "sim/triangle_soup.h"
 
 namespace plumbline {
@@ -40,6 +42,8 @@ class RaySurfaces {
   /// The first surface along a ray within [min_range_m, best.range_m] takes the place of `best`. The normal's side is
   /// the surface's own.
   void cast(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double min_range_m, RayHit& best) const;
+  /// The same for each of the packet's rays.
+  void cast(const RayPacket& rays, double min_range_m, std::array<RayHit, RayPacket::kMost>& best) const;
   /// The distance to the nearest surface, at most limit_m.
   double distance(const Eigen::Vector3d& point, double limit_m) const;
 

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 
+#include <array>
 #include <cmath>
 #include <future>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -70,6 +72,68 @@ TEST(RayWindow, SeesAllWithinItsReachAnywhereInALargeWorld) {
   }
   EXPECT_GT(hits, 300);
   EXPECT_LE(disagree, 1);  // through an edge
+}
+
+/// Things of all kinds: meshes and shapes in closed form, coplanar and crossing, a plane, and a van that drives.
+World crowded_yard() {
+  RandomStream stream(5, "yard");
+  const auto place = [&](double low, double high) {
+    return std::to_string(stream.uniform(-20, 20)) + ' ' + std::to_string(stream.uniform(-20, 20)) + ' ' +
+           std::to_string(stream.uniform(low, high));
+  };
+  std::string geoms = "<geom type=\"plane\" size=\"0 0 1\"/>";
+  for (int i = 0; i < 60; ++i) {
+    geoms += "<geom type=\"box\" size=\".3 .4 2\" pos=\"" + place(0, 2) + "\"/>";
+    geoms += "<geom type=\"box\" size=\"2 .4 .5\" pos=\"" + std::to_string(stream.integer(-15, 15)) + " 9 .5\"/>";
+    geoms += "<geom type=\"sphere\" size=\".5\" pos=\"" + place(0, 4) + "\"/>";
+    geoms += "<geom type=\"capsule\" size=\".2 1\" euler=\"40 20 0\" pos=\"" + place(0, 4) + "\"/>";
+  }
+  SceneDescription scene;
+  scene.mjcf = "<mujoco><worldbody>" + geoms +
+               R"(<body name="van" mocap="true" pos="0 -500 0"><geom type="box" size="2 1 1" pos="0 0 1"/></body>
+               </worldbody></mujoco>)";
+  scene.movers = {{"van", {"lane", {{-20, -4, 0}, {20, -4, 0}}, false}, 10.0, 0.0}};
+  return World::from_scene(scene, 1);
+}
+
+void expect_same(const RayHit& hit, const RayHit& expected) {
+  EXPECT_EQ(hit.hit, expected.hit);
+  EXPECT_EQ(hit.geom, expected.geom);
+  EXPECT_EQ(hit.range_m, expected.range_m);
+  EXPECT_EQ(hit.normal_in_world, expected.normal_in_world);
+}
+
+// Side by side as a lidar's, and at all angles; also along the lines in which surfaces meet.
+TEST(RayWindow, RaysInAPacketHitWhatTheyHitAlone) {
+  const World world = crowded_yard();
+  const RayScene rays(world);
+  const RayWindow window = rays.window({0, 0, 1.5}, 30.0, 2.0);
+  RandomStream stream(6, "rays");
+  std::map<int, int> hits_of_geom;
+  for (int i = 0; i < 6000; ++i) {
+    RayPacket packet;
+    packet.size = static_cast<std::size_t>(stream.integer(1, static_cast<int>(RayPacket::kMost)));
+    const double spread = i % 3 == 0 ? 1.0 : 0.003;
+    const Eigen::Vector3d ahead = drawn_direction(stream);
+    for (std::size_t k = 0; k < packet.size; ++k) {
+      packet.origins[k] = Eigen::Vector3d(0, 0.01 * stream.uniform(), 1.5);
+      packet.directions[k] = (ahead + spread * drawn_direction(stream)).normalized();
+      packet.times_s[k] = stream.uniform(1.6, 2.4);
+    }
+    if (i % 4 == 0) {  // at the foot of a row of boxes
+      packet.origins[0] = {0.0, 0.0, 1.5};
+      packet.directions[0] = Eigen::Vector3d(stream.uniform(-10, 10), 8.6, -1.5).normalized();
+    }
+    std::array<RayHit, RayPacket::kMost> hits;
+    window.cast(packet, 0.0, 30.0, hits);
+    for (std::size_t k = 0; k < packet.size; ++k) {
+      expect_same(hits[k], window.cast(packet.origins[k], packet.directions[k], 0.0, 30.0, packet.times_s[k]));
+      if (hits[k].hit) ++hits_of_geom[hits[k].geom];
+    }
+    ASSERT_FALSE(HasFailure()) << "packet " << i;
+  }
+  EXPECT_GT(hits_of_geom.size(), 100U);
+  EXPECT_GT(hits_of_geom[world.geom_count() - 1], 50) << "the van";
 }
 
 // The wall 9 km down the street, past all windows between.
