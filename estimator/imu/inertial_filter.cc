@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "estimator/geometry/interpolation.h"
@@ -36,40 +37,65 @@ Eigen::MatrixXd lifted_to_the_middle(const Eigen::MatrixXd& information) {
   return eigen.vectors * eigen.values.cwiseMax(middle).asDiagonal() * eigen.vectors.transpose();
 }
 
-/// R = exp(a) R^, p = exp(a) p^ + b as a transform on the left.
-Pose exp_left(const Vector6d& error) { return {exp_so3(error.head<3>()), error.tail<3>()}; }
+constexpr std::array kPoses = {InertialFilter::kWorld, InertialFilter::kMap, InertialFilter::kKeyframe,
+                               InertialFilter::kPast};
+
+/// What one step of the inertial prediction does to errors, block by block: most of its matrix is zero.
+struct Transition {
+  Eigen::Matrix3d now_from_before;
+  Eigen::Matrix3d turn_of_bias;      ///< by which a gyro bias turns the body over the step
+  Eigen::Vector3d step_in_body;      ///< before
+  Eigen::Vector3d velocity_in_body;  ///< now
+  Eigen::Vector3d gravity_in_body;   ///< now
+  double h = 0.0;
+
+  InertialFilter::Covariance operator()(const InertialFilter::Covariance& x) const {
+    using Filter = InertialFilter;
+    InertialFilter::Covariance y = x;
+    const auto turned = (turn_of_bias * x.middleRows<3>(Filter::kGyroBias)).eval();
+    const auto pushed = (x.middleRows<3>(Filter::kGravity) - x.middleRows<3>(Filter::kAccelBias)).eval();
+    const auto moved = (h * x.middleRows<3>(Filter::kVelocity) + 0.5 * h * h * pushed).eval();
+    for (const int pose : kPoses) {
+      const auto attitude = x.middleRows<3>(pose);
+      y.middleRows<3>(pose) = now_from_before * attitude - turned;
+      y.middleRows<3>(pose + 3) = now_from_before * (x.middleRows<3>(pose + 3) + moved - skew(step_in_body) * attitude);
+    }
+    y.middleRows<3>(Filter::kVelocity) =
+        now_from_before * (x.middleRows<3>(Filter::kVelocity) + h * pushed) - skew(velocity_in_body) * turned;
+    y.middleRows<3>(Filter::kGravity) =
+        now_from_before * x.middleRows<3>(Filter::kGravity) - skew(gravity_in_body) * turned;
+    return y;
+  }
+};
 
 }  // namespace
 
 InertialFilter::InertialFilter(const InitialState& start, const ImuNoise& noise, bool remapping)
-    : state_(start.state), noise_(noise), remapping_(remapping) {
+    : state_(start.state), map_from_body_(start.state.world_from_body), noise_(noise), remapping_(remapping) {
+  const Eigen::Matrix3d body_from_world = state_.world_from_body.rotation.conjugate().toRotationMatrix();
   covariance_.block<3, 3>(kVelocity, kVelocity).diagonal().setConstant(squared(start.velocity_sigma));
-  covariance_.block<3, 3>(kGyroBias, kGyroBias) = start.gyro_bias_covariance;
   // The world's z axis is where the mean force pointed. Where an accelerometer bias tilted it, gravity leans the other
-  // way in that world: bias across gravity and gravity's lean are one unknown until the body turns.
+  // way in that world: bias across gravity and gravity's lean are one unknown until the body turns. Along gravity the
+  // force's length gave the bias.
   const double bias_variance = squared(noise.accel_turn_on_sigma);
-  const Eigen::Matrix3d world_from_body = state_.world_from_body.rotation.toRotationMatrix();
-  Eigen::Matrix<double, 2, 3> lean_from_bias = world_from_body.topRows<2>();
-  covariance_.block<3, 3>(kAccelBias, kAccelBias).diagonal().setConstant(bias_variance);
-  covariance_.block<2, 3>(kGravity, kAccelBias) = bias_variance * lean_from_bias;
-  covariance_.block<3, 2>(kAccelBias, kGravity) = bias_variance * lean_from_bias.transpose();
-  covariance_.block<2, 2>(kGravity, kGravity)
-      .diagonal()
-      .setConstant(bias_variance + squared(start.tilt_sigma * kStandardGravity));
-  // The mean force's length also gave the bias along gravity.
-  const Eigen::Vector3d up_in_body = world_from_body.transpose().col(2);
-  const double known = std::max(0.0, bias_variance - squared(start.tilt_sigma * kStandardGravity));
-  covariance_.block<3, 3>(kAccelBias, kAccelBias) -= known * up_in_body * up_in_body.transpose();
-  // What the gyro bias is wrong by has turned the heading ever since the first sample, about where the body is now.
-  Eigen::Matrix<double, 9, 3> moving_from_bias;
-  moving_from_bias.topRows<3>() = world_from_body * start.d_attitude_d_gyro_bias;
-  moving_from_bias.middleRows<3>(kPosition) = skew(state_.world_from_body.translation) * moving_from_bias.topRows<3>();
-  moving_from_bias.middleRows<3>(kVelocity) = skew(state_.velocity_in_world) * moving_from_bias.topRows<3>();
-  covariance_.block<9, 3>(0, kGyroBias) = moving_from_bias * start.gyro_bias_covariance;
-  covariance_.block<3, 9>(kGyroBias, 0) = covariance_.block<9, 3>(0, kGyroBias).transpose();
-  covariance_.topLeftCorner<9, 9>() += moving_from_bias * start.gyro_bias_covariance * moving_from_bias.transpose();
-  set_keyframe(state_.world_from_body);
-  set_past();
+  const double tilt_variance = squared(start.tilt_sigma * kStandardGravity);
+  const Eigen::Vector3d up = body_from_world.col(2);
+  const Eigen::Matrix3d along = up * up.transpose();
+  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - along;
+  covariance_.block<3, 3>(kAccelBias, kAccelBias) =
+      bias_variance * across + std::min(bias_variance, tilt_variance) * along;
+  covariance_.block<3, 3>(kGravity, kAccelBias) = bias_variance * across;
+  covariance_.block<3, 3>(kAccelBias, kGravity) = bias_variance * across;
+  covariance_.block<3, 3>(kGravity, kGravity) = (bias_variance + tilt_variance) * across;
+  // What the gyro bias is wrong by has turned the body ever since the first sample, and with it what it sees.
+  Covariance from_bias = Covariance::Identity();
+  from_bias.block<3, 3>(kWorld, kGyroBias) = start.d_attitude_d_gyro_bias;
+  from_bias.block<3, 3>(kVelocity, kGyroBias) =
+      skew(body_from_world * state_.velocity_in_world) * start.d_attitude_d_gyro_bias;
+  from_bias.block<3, 3>(kGravity, kGyroBias) =
+      skew(body_from_world * state_.gravity_in_world) * start.d_attitude_d_gyro_bias;
+  covariance_.block<3, 3>(kGyroBias, kGyroBias) = start.gyro_bias_covariance;
+  covariance_ = (from_bias * covariance_ * from_bias.transpose()).eval();
 }
 
 void InertialFilter::predict(const InertialSegment& segment) {
@@ -77,107 +103,59 @@ void InertialFilter::predict(const InertialSegment& segment) {
   if (h <= 0.0) return;
   const Eigen::Vector3d rate = segment.rate - state_.gyro_bias;
   const Eigen::Vector3d force = segment.force - state_.accel_bias;
-  const Eigen::Matrix3d r = state_.world_from_body.rotation.toRotationMatrix();
   const NavigationState next = mechanize(state_, segment);
+  const Eigen::Quaterniond body_from_world = next.world_from_body.rotation.conjugate();
+  const Pose before_from_now = state_.world_from_body.inverse() * next.world_from_body;
 
-  // Transition of the error state without what rests in the world: map and past poses.
-  constexpr int kMoving = kMap;
-  constexpr int kResting = kSize - kMoving;
-  // An attitude's error turns velocity and position about the origin.
-  Eigen::Matrix<double, 9, 3> turned;
-  turned.topRows<3>().setIdentity();
-  turned.middleRows<3>(kPosition) = skew(next.world_from_body.translation);
-  turned.middleRows<3>(kVelocity) = skew(next.velocity_in_world);
-  Eigen::Matrix<double, kMoving, kMoving> f = Eigen::Matrix<double, kMoving, kMoving>::Identity();
-  const Eigen::Matrix3d d_velocity_d_attitude = h * skew(state_.gravity_in_world);
-  f.block<3, 3>(kVelocity, kAttitude) = d_velocity_d_attitude;
-  f.block<3, 3>(kVelocity, kAccelBias) = -h * r;
-  f.block<3, 2>(kVelocity, kGravity) = h * Eigen::Matrix3d::Identity().leftCols<2>();
-  f.block<3, 3>(kPosition, kAttitude) = 0.5 * h * d_velocity_d_attitude;
-  f.block<3, 3>(kPosition, kVelocity) = h * Eigen::Matrix3d::Identity();
-  f.block<3, 3>(kPosition, kAccelBias) = -0.5 * h * h * r;
-  f.block<3, 2>(kPosition, kGravity) = 0.5 * h * h * Eigen::Matrix3d::Identity().leftCols<2>();
-  f.block<9, 3>(0, kGyroBias) =
-      turned * (-h * next.world_from_body.rotation.toRotationMatrix() * right_jacobian_so3(h * rate));
+  Transition transition;
+  transition.h = h;
+  transition.now_from_before = before_from_now.rotation.conjugate().toRotationMatrix();
+  transition.turn_of_bias = h * right_jacobian_so3(h * rate);
+  transition.step_in_body = before_from_now.translation;
+  transition.velocity_in_body = body_from_world * next.velocity_in_world;
+  transition.gravity_in_body = body_from_world * next.gravity_in_world;
+  covariance_ = transition(transition(covariance_).transpose());
 
-  auto moving = covariance_.topLeftCorner<kMoving, kMoving>();
-  moving = (f * moving * f.transpose()).eval();
-  auto cross = covariance_.topRightCorner<kMoving, kResting>();
-  cross = (f * cross).eval();
-  covariance_.bottomLeftCorner<kResting, kMoving>() = cross.transpose();
-
-  const double push = (r * force + state_.gravity_in_world).norm();
+  const double push = (state_.world_from_body.rotation * force + state_.gravity_in_world).norm();
   const double misread_rate = kShapeError * rate.norm() + kPushedRate * push;
   const double turn_density = std::hypot(kDensityMargin * noise_.gyro_density, std::sqrt(kSwing_s) * misread_rate);
-  moving.topLeftCorner<9, 9>() += squared(turn_density) * h * turned * turned.transpose();
+  Eigen::Matrix<double, kSize, 3> turned = Eigen::Matrix<double, kSize, 3>::Zero();
+  for (const int pose : kPoses) turned.middleRows<3>(pose).setIdentity();
+  turned.middleRows<3>(kVelocity) = skew(transition.velocity_in_body);
+  turned.middleRows<3>(kGravity) = skew(transition.gravity_in_body);
+  covariance_.noalias() += squared(turn_density) * h * turned * turned.transpose();
   const auto add_noise = [&](int block, double density) {
-    moving.block<3, 3>(block, block).diagonal().array() += squared(density) * h;
+    covariance_.diagonal().segment<3>(block).array() += squared(density) * h;
   };
   add_noise(kVelocity, std::hypot(kDensityMargin * noise_.accel_density, std::sqrt(kSwing_s) * kShapeError * push));
   add_noise(kGyroBias, noise_.gyro_random_walk);
   add_noise(kAccelBias, noise_.accel_random_walk);
   symmetrize();
+  map_from_body_ = map_from_body_ * before_from_now;
+  keyframe_from_body_ = keyframe_from_body_ * before_from_now;
   state_ = next;
 }
 
-Matrix6d InertialFilter::pose_covariance() const {
-  const Matrix6d body_from_world = adjoint(state_.world_from_body.inverse());
-  return body_from_world * covariance_.topLeftCorner<6, 6>() * body_from_world.transpose();
-}
-
-/// map_from_body = exp(map's error + body's error) of the estimate.
-InertialFilter::Jacobian InertialFilter::map_jacobian() const {
-  Jacobian j = Jacobian::Zero();
-  j.leftCols<6>() = j.middleCols<6>(kMap) = adjoint(map_from_body().inverse());
-  return j;
-}
-
-Matrix6d InertialFilter::map_from_body_covariance() const {
-  const Jacobian j = map_jacobian();
-  return j * covariance_ * j.transpose();
-}
-
 void InertialFilter::update_pose(const SolveResult& solved, const Pose& predicted, double inflation) {
-  update(solved, predicted, map_jacobian(), inflation, Matrix6d::Zero());
+  update(solved, predicted, kMap, inflation, Matrix6d::Zero());
 }
 
-/// New content has the present pose's error, which is that of the state with the other sign.
+/// New content is put where the body is thought to be in the map: in it, the body's place is certain.
 void InertialFilter::renew_map(double share, const Matrix6d& systematic) {
-  Covariance renewed = Covariance::Identity();
-  renewed.block<6, 6>(kMap, kMap) *= 1.0 - share;
-  renewed.block<6, 6>(kMap, 0).diagonal().setConstant(-share);
-  covariance_ = (renewed * covariance_ * renewed.transpose()).eval();
-  const Matrix6d map_from_errors = adjoint(map_from_body());
-  covariance_.block<6, 6>(kMap, kMap) += map_from_errors * systematic * map_from_errors.transpose();
+  covariance_.middleRows<6>(kMap) *= 1.0 - share;
+  covariance_.middleCols<6>(kMap) *= 1.0 - share;
+  covariance_.block<6, 6>(kMap, kMap) += systematic;
   symmetrize();
 }
 
 void InertialFilter::update_keyframe_motion(const SolveResult& solved, const Pose& predicted, double inflation) {
   Vector6d along = Vector6d::Zero();
   along.tail<3>() = kSharedDepthError * (solved.pose.rotation.conjugate() * solved.pose.translation);
-  update(solved, predicted, motion_jacobian(kKeyframe), inflation, along * along.transpose());
+  update(solved, predicted, kKeyframe, inflation, along * along.transpose());
 }
 
-/// clone_from_body = estimate exp(Ad(body_from_world) (body's error - clone's error)).
-InertialFilter::Jacobian InertialFilter::motion_jacobian(int clone) const {
-  Jacobian j = Jacobian::Zero();
-  j.leftCols<6>() = adjoint(state_.world_from_body.inverse());
-  j.middleCols<6>(clone) = -j.leftCols<6>();
-  return j;
-}
-
-Matrix6d InertialFilter::keyframe_motion_covariance() const {
-  const Jacobian j = motion_jacobian(kKeyframe);
-  return j * covariance_ * j.transpose();
-}
-
-Matrix6d InertialFilter::past_motion_covariance() const {
-  const Jacobian j = motion_jacobian(kPast);
-  return j * covariance_ * j.transpose();
-}
-
-void InertialFilter::update(const SolveResult& solved, const Pose& predicted, const Jacobian& d_pose_d_error,
-                            double inflation, const Matrix6d& shared) {
+void InertialFilter::update(const SolveResult& solved, const Pose& predicted, int pose, double inflation,
+                            const Matrix6d& shared) {
   const int n = solved.spectrum.well_conditioned;
   if (n == 0) return;
   // The data's own solution within the well-conditioned directions, as a perturbation of the solved pose.
@@ -191,9 +169,8 @@ void InertialFilter::update(const SolveResult& solved, const Pose& predicted, co
   noise += directions.transpose() * shared * directions;
   const Eigen::VectorXd innovation = measured - directions.transpose() * solved.pose.local(predicted);
 
-  const Eigen::MatrixXd h = directions.transpose() * d_pose_d_error;
-  const Eigen::MatrixXd covariance_ht = covariance_ * h.transpose();
-  const Eigen::MatrixXd foreseen = h * covariance_ht;
+  const Eigen::MatrixXd covariance_ht = covariance_.middleCols<6>(pose) * directions;
+  const Eigen::MatrixXd foreseen = directions.transpose() * covariance_ht.middleRows<6>(pose);
   Eigen::LDLT<Eigen::MatrixXd> expected(foreseen + noise);
   const double surprise = innovation.dot(expected.solve(innovation)) / n;
   if (remapping_ && surprise > kLargestInnovation) {
@@ -204,45 +181,38 @@ void InertialFilter::update(const SolveResult& solved, const Pose& predicted, co
   const ErrorState correction = gain * innovation;
   if (!correction.allFinite()) return;
   // Joseph's form keeps the covariance symmetric and positive.
-  const Covariance kept = Covariance::Identity() - gain * h;
+  Covariance kept = Covariance::Identity();
+  kept.middleCols<6>(pose) -= gain * directions.transpose();
   covariance_ = (kept * covariance_ * kept.transpose() + gain * noise * gain.transpose()).eval();
   symmetrize();
   apply(correction);
 }
 
-/// Rounding's antisymmetric part would grow with the absolute pose's covariance and swamp the key-frame motion's, which
-/// is a small difference of large blocks.
 void InertialFilter::symmetrize() { covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval(); }
 
 void InertialFilter::apply(const ErrorState& correction) {
-  const Pose corrected_from_world = exp_left(correction.segment<6>(kAttitude));
-  state_.world_from_body = corrected_from_world * state_.world_from_body;
-  state_.velocity_in_world =
-      corrected_from_world.rotation * state_.velocity_in_world + correction.segment<3>(kVelocity);
+  const Eigen::Quaterniond body_from_world = state_.world_from_body.rotation.conjugate();
+  const Eigen::Vector3d velocity = body_from_world * state_.velocity_in_world + correction.segment<3>(kVelocity);
+  const Eigen::Vector3d gravity = body_from_world * state_.gravity_in_world + correction.segment<3>(kGravity);
+  state_.world_from_body = state_.world_from_body.retract(correction.segment<6>(kWorld));
+  state_.velocity_in_world = state_.world_from_body.rotation * velocity;
+  state_.gravity_in_world = kStandardGravity * (state_.world_from_body.rotation * gravity).normalized();
   state_.gyro_bias += correction.segment<3>(kGyroBias);
   state_.accel_bias += correction.segment<3>(kAccelBias);
-  const Eigen::Vector2d lean = state_.gravity_in_world.head<2>() + correction.segment<2>(kGravity);
-  const double down = std::sqrt(std::max(0.0, squared(kStandardGravity) - lean.squaredNorm()));
-  state_.gravity_in_world << lean, -down;
-  map_from_world_ = exp_left(correction.segment<6>(kAttitude) + correction.segment<6>(kMap)) * map_from_world_ *
-                    corrected_from_world.inverse();
-  world_from_keyframe_ = exp_left(correction.segment<6>(kKeyframe)) * world_from_keyframe_;
-  world_from_past_ = exp_left(correction.segment<6>(kPast)) * world_from_past_;
+  map_from_body_ = map_from_body_.retract(correction.segment<6>(kMap));
+  keyframe_from_body_ = keyframe_from_body_.retract(correction.segment<6>(kKeyframe));
 }
 
-void InertialFilter::set_keyframe(const Pose& world_from_body) {
-  world_from_keyframe_ = world_from_body;
-  clone_pose(kKeyframe);
+void InertialFilter::set_keyframe(const Pose& world_from_keyframe) {
+  keyframe_from_body_ = world_from_keyframe.inverse() * state_.world_from_body;
+  start_frame(kKeyframe);
 }
 
-void InertialFilter::set_past() {
-  world_from_past_ = state_.world_from_body;
-  clone_pose(kPast);
-}
+void InertialFilter::set_past() { start_frame(kPast); }
 
-void InertialFilter::clone_pose(int clone) {
-  covariance_.middleCols<6>(clone) = covariance_.leftCols<6>().eval();
-  covariance_.middleRows<6>(clone) = covariance_.topRows<6>().eval();
+void InertialFilter::start_frame(int pose) {
+  covariance_.middleRows<6>(pose).setZero();
+  covariance_.middleCols<6>(pose).setZero();
 }
 
 }  // namespace plumbline

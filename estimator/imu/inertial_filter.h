@@ -17,26 +17,27 @@ namespace plumbline {
 /// absolute fix scan by scan, ten a second, it would soon hold the attitude so firmly that gravity could not correct
 /// it.
 ///
-/// Errors are those of a left perturbation, seen from the world's origin: R = exp(a) R^, p = exp(a) p^ + b,
-/// v = exp(a) v^ + c (the right-invariant error of Barrau and Bonnabel, "The invariant extended Kalman filter as a
-/// stable observer", 2017). What no sensor can tell, where the world lies and which way it is turned, is then the same
-/// direction of the error state whatever the state is. With errors in the body's axes it moves with the estimate, and
-/// every correction makes the filter surer of a heading and a place that nothing has shown.
+/// The state is kept as the body sees it: velocity and gravity in B, and the body's pose in each of the frames that
+/// something is measured in (the map, the key-frame) as well as in the world. All poses go through the same motion, so
+/// that their errors grow together, and a measurement is one of them: the world's frame takes part in none. With a
+/// velocity in the world and copies of world poses, what no sensor can tell (where the world lies and which way it is
+/// turned) is a direction of the error state that moves with the estimate, and every correction makes the filter surer
+/// of a heading and a place that nothing has shown (Huang, Mourikis and Roumeliotis, "Observability-based rules for
+/// designing consistent EKF SLAM estimators", 2010).
 ///
-/// Error state: [attitude, position, velocity, gyro bias, accel bias, gravity's x and y in W, the map's offset
-/// (attitude and position), key-frame attitude and position, the pose some time ago: attitude and position].
+/// Error state: [world_from_body (attitude, position), velocity in B, gyro bias, accel bias, gravity in B, then as the
+/// first map_from_body, keyframe_from_body and past_from_body]; perturbations of poses are on the right.
 class InertialFilter {
  public:
-  static constexpr int kAttitude = 0;
-  static constexpr int kPosition = 3;
+  static constexpr int kWorld = 0;
   static constexpr int kVelocity = 6;
   static constexpr int kGyroBias = 9;
   static constexpr int kAccelBias = 12;
   static constexpr int kGravity = 15;
-  static constexpr int kMap = 17;
-  static constexpr int kKeyframe = 23;
-  static constexpr int kPast = 29;
-  static constexpr int kSize = 35;
+  static constexpr int kMap = 18;
+  static constexpr int kKeyframe = 24;
+  static constexpr int kPast = 30;
+  static constexpr int kSize = 36;
   using Covariance = Eigen::Matrix<double, kSize, kSize>;
   using ErrorState = Eigen::Matrix<double, kSize, 1>;
 
@@ -57,38 +58,35 @@ class InertialFilter {
   void update_keyframe_motion(const SolveResult& keyframe_from_body, const Pose& predicted, double inflation);
 
   /// Makes the pose at the newest image the key-frame.
-  void set_keyframe(const Pose& world_from_body);
+  void set_keyframe(const Pose& world_from_keyframe);
   /// Makes the present pose the past one, for the covariance of the motion since.
   void set_past();
 
   const NavigationState& state() const { return state_; }
-  const Pose& world_from_keyframe() const { return world_from_keyframe_; }
+  Pose world_from_keyframe() const { return state_.world_from_body * keyframe_from_body_.inverse(); }
   const Covariance& covariance() const { return covariance_; }
-  /// Of world_from_body, right perturbation; so are all others that are given out or taken.
-  Matrix6d pose_covariance() const;
+  Matrix6d pose_covariance() const { return covariance_of(kWorld); }
   /// Where the body stands in the map, whose content may be off by what it took over from earlier poses.
-  Pose map_from_body() const { return map_from_world_ * state_.world_from_body; }
-  Matrix6d map_from_body_covariance() const;
+  const Pose& map_from_body() const { return map_from_body_; }
+  Matrix6d map_from_body_covariance() const { return covariance_of(kMap); }
   /// Of keyframe_from_body, right perturbation.
-  Matrix6d keyframe_motion_covariance() const;
+  Matrix6d keyframe_motion_covariance() const { return covariance_of(kKeyframe); }
   /// Of past_from_body, right perturbation.
-  Matrix6d past_motion_covariance() const;
+  Matrix6d past_motion_covariance() const { return covariance_of(kPast); }
 
  private:
-  using Jacobian = Eigen::Matrix<double, 6, kSize>;
-  Jacobian map_jacobian() const;
-  Jacobian motion_jacobian(int clone) const;
-  void clone_pose(int clone);
+  Matrix6d covariance_of(int pose) const { return covariance_.block<6, 6>(pose, pose); }
+  /// A frame of the body's own: the pose in it is certain.
+  void start_frame(int pose);
+  /// @param pose    which of the error state's poses was measured
   /// @param shared  covariance of what all rows err by alike, right perturbation of the solved pose
-  void update(const SolveResult& solved, const Pose& predicted, const Jacobian& d_pose_d_error, double inflation,
-              const Matrix6d& shared);
+  void update(const SolveResult& solved, const Pose& predicted, int pose, double inflation, const Matrix6d& shared);
   void apply(const ErrorState& correction);
   void symmetrize();
 
   NavigationState state_;
-  Pose world_from_keyframe_;
-  Pose world_from_past_;
-  Pose map_from_world_;
+  Pose map_from_body_;
+  Pose keyframe_from_body_;
   ImuNoise noise_;
   bool remapping_ = true;
   Covariance covariance_ = Covariance::Zero();

@@ -322,8 +322,8 @@ double sigma_after_a_drive(double key_frame_turn_rad) {
 }
 
 /// Whatever it corrects on its way, no motion since a key-frame tells where the world lies or which way it is turned.
-/// With errors counted in the body's axes a drive of corrections made it a fifth surer than one without, and over 700 m
-/// of motorway so sure that it jumped by decimetres when it came to stand.
+/// With a velocity in the world and copies of world poses, a drive of corrections made it a fifth surer than one
+/// without, and over 700 m of motorway so sure that it jumped by decimetres when it came to stand.
 TEST(InertialFilter, ItsOwnCorrectionsDoNotMakeItSurer) {
   const double undisturbed = sigma_after_a_drive(0.0);
   const double corrected = sigma_after_a_drive(3e-4);
