@@ -46,7 +46,7 @@ struct MatchDrift {
   std::vector<Vector6d> per_renewal;
   double reach_m = 0.0;  ///< root mean square distance of the matched features: moving so far renews them
 
-  /// Covariance of the drift over a step [m]: it goes on alike while the features are renewed many times.
+  /// Covariance of the drift over a step [m]: it goes on alike while the features are renewed, attitude's longer.
   Matrix6d covariance(const Eigen::Vector3d& step_in_body) const;
 };
 
