@@ -43,12 +43,13 @@ constexpr std::array kPoses = {InertialFilter::kWorld, InertialFilter::kMap, Ine
 /// What one step of the inertial prediction does to errors, block by block: most of its matrix is zero.
 struct Transition {
   Eigen::Matrix3d now_from_before;
-  Eigen::Matrix3d turn_of_bias;      ///< by which a gyro bias turns the body over the step
-  Eigen::Vector3d step_in_body;      ///< before
+  Eigen::Matrix3d turn_of_bias;      ///< how far a gyro bias turns the body over the step
+  Eigen::Vector3d step_in_body;      ///< the translation, seen from the body before
   Eigen::Vector3d velocity_in_body;  ///< now
   Eigen::Vector3d gravity_in_body;   ///< now
-  double h = 0.0;
+  double h = 0.0;                    ///< [s]
 
+  /// The transition matrix times x.
   InertialFilter::Covariance operator()(const InertialFilter::Covariance& x) const {
     using Filter = InertialFilter;
     InertialFilter::Covariance y = x;
