@@ -18,12 +18,6 @@ float lattice_value(std::uint64_t seed, int x, int y) {
 
 float smooth_step(float t) { return t * t * (3.0F - 2.0F * t); }
 
-/// Steepens the noise around zero until, at 1, it is two tones with a soft edge.
-float sharpen(float value, float sharpness) {
-  const float steep = std::clamp(value * (1.0F + 3.0F * sharpness), -1.0F, 1.0F);
-  return value + sharpness * (steep * (1.5F - 0.5F * steep * steep) - value);
-}
-
 }  // namespace
 
 TileCanvas::TileCanvas(int size)
@@ -36,6 +30,8 @@ void TileCanvas::add_noise(int cell, float amplitude, float sharpness, std::uint
     weights[static_cast<std::size_t>(i)] = smooth_step(static_cast<float>(i) / static_cast<float>(cell));
   }
   std::vector<float> knots(static_cast<std::size_t>(lattice) + 1);
+  Eigen::ArrayXf noise(size_);
+  Eigen::ArrayXf steep(size_);
   for (int y = 0; y < size_; ++y) {
     const float down = weights[static_cast<std::size_t>(y % cell)];
     for (int k = 0; k <= lattice; ++k) {
@@ -43,14 +39,16 @@ void TileCanvas::add_noise(int cell, float amplitude, float sharpness, std::uint
       const float below = lattice_value(seed, k % lattice, (y / cell + 1) % lattice);
       knots[static_cast<std::size_t>(k)] = above + (below - above) * down;
     }
-    float* row = &values_[index(0, y)];
+    float* into = noise.data();
     for (int k = 0; k < lattice; ++k) {
       const float left = knots[static_cast<std::size_t>(k)];
       const float step = knots[static_cast<std::size_t>(k) + 1] - left;
-      for (int i = 0; i < cell; ++i) {
-        row[k * cell + i] += amplitude * sharpen(left + step * weights[static_cast<std::size_t>(i)], sharpness);
-      }
+      for (const float weight : weights) *into++ = left + step * weight;
     }
+    // Steepened around zero until, at 1, it is two tones with a soft edge.
+    steep = (noise * (1.0F + 3.0F * sharpness)).min(1.0F).max(-1.0F);
+    Eigen::Map<Eigen::ArrayXf>(&values_[index(0, y)], size_) +=
+        amplitude * (noise + sharpness * (steep * (1.5F - 0.5F * steep * steep) - noise));
   }
 }
 

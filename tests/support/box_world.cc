@@ -11,10 +11,14 @@ namespace {
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 double cast_box(const Box& box, const Eigen::Vector3d& origin, const Eigen::Vector3d& inverse) {
-  const Eigen::Array3d a = (box.low - origin).array() * inverse.array();
-  const Eigen::Array3d b = (box.high - origin).array() * inverse.array();
-  const double enter = a.min(b).maxCoeff();
-  const double leave = a.max(b).minCoeff();
+  double enter = -kFar;
+  double leave = kFar;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double a = (box.low[axis] - origin[axis]) * inverse[axis];
+    const double b = (box.high[axis] - origin[axis]) * inverse[axis];
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
   if (leave < enter || leave <= 0.0) return kFar;
   if (box.hollow) return leave;
   return enter > 0.0 ? enter : kFar;

@@ -61,11 +61,10 @@ class DeadReckoning final : public plumbline::Estimator {
     force_ += sample.specific_force;
     rate_ += sample.angular_rate;
     odometry_.gyro_bias = rate_ / static_cast<double>(imu_.used);
-    // The shortest turn that brings it up changes the yaw a little; yaw 0 is where the estimate starts.
-    const Eigen::Quaterniond levelled = Eigen::Quaterniond::FromTwoVectors(force_, Eigen::Vector3d::UnitZ());
-    const Eigen::Vector3d forward = levelled * Eigen::Vector3d::UnitX();
-    const Eigen::AngleAxisd yaw(-std::atan2(forward.y(), forward.x()), Eigen::Vector3d::UnitZ());
-    odometry_.world_from_body.rotation = (yaw * levelled).normalized();
+    // Yaw 0 is where the estimate starts.
+    const Eigen::AngleAxisd roll(std::atan2(force_.y(), force_.z()), Eigen::Vector3d::UnitX());
+    const Eigen::AngleAxisd pitch(-std::atan2(force_.x(), force_.tail<2>().norm()), Eigen::Vector3d::UnitY());
+    odometry_.world_from_body.rotation = pitch * roll;
   }
 
   // The sample is the mean over the interval that ends at its stamp.

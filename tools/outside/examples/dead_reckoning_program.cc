@@ -56,10 +56,10 @@ void rest(const Eigen::Vector3d& rate, const Eigen::Vector3d& force, State& stat
   state.samples += 1.0;
   state.rate_sum += rate;
   state.force_sum += force;
-  const Eigen::Quaterniond levelled = Eigen::Quaterniond::FromTwoVectors(state.force_sum, Eigen::Vector3d::UnitZ());
-  const Eigen::Vector3d forward = levelled * Eigen::Vector3d::UnitX();
-  const Eigen::AngleAxisd yaw(-std::atan2(forward.y(), forward.x()), Eigen::Vector3d::UnitZ());
-  state.rotation = (yaw * levelled).normalized();
+  const Eigen::AngleAxisd roll(std::atan2(state.force_sum.y(), state.force_sum.z()), Eigen::Vector3d::UnitX());
+  const Eigen::AngleAxisd pitch(-std::atan2(state.force_sum.x(), state.force_sum.tail<2>().norm()),
+                                Eigen::Vector3d::UnitY());
+  state.rotation = pitch * roll;
 }
 
 // The sample is the mean over the interval that ends at its stamp.
