@@ -1,5 +1,6 @@
 #include "estimator/vision/frame_to_frame.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <utility>
@@ -16,6 +17,9 @@ namespace {
 constexpr double kLeastEpipolarMotion_m = 0.01;
 /// A track is triangulated anew when its baseline has grown by this share: measurements between would repeat the last.
 constexpr double kBaselineGrowth = 1.3;
+/// Of a depthless feature's inverse depth: so little that nothing follows along its epipolar line. Taken for far away,
+/// points on the ground turn the pitch by as much as they lie nearer, in every image.
+constexpr InverseDepth kUnknownDepth{0.0, 5.0};
 
 FeatureSetConfig feature_config(const FrameToFrameConfig& config) {
   FeatureSetConfig features;
@@ -55,6 +59,7 @@ struct FrameToFrame::Impl {
   void accept(const SolveResult& solved);
   void skip(const Pose& predicted);
   void make_newest_the_reference(const Pose& motion);
+  void leave_unmeasured_depths();
   void triangulate_tracks();
   void refill();
 
@@ -146,6 +151,7 @@ FrameToFrame::Step FrameToFrame::Impl::process(const Frame& frame) {
   step.predicted = odometry_from_reference.inverse() * predicted(frame.stamp_ns);
   newest_ns = frame.stamp_ns;
   if (config.map_depth_only) std::erase_if(set.features, [](const Feature& f) { return !measured(f); });
+  leave_unmeasured_depths();
   if (std::exchange(count_due, false)) refilled_features = set.features.size();
   set.track(step.predicted, reference_from_last);
   choose_rows(step.predicted);
@@ -218,6 +224,21 @@ void FrameToFrame::Impl::make_newest_the_reference(const Pose& motion) {
   const bool few = set.features.size() < static_cast<std::size_t>(config.min_features);
   if ((worn || few) && seconds_between(refill_ns, newest_ns) >= config.refill_pause_s) refill();
   set.give_depth(odometry_from_reference, reference_ns);
+}
+
+/// A depth triangulated with a wrong motion agrees with that wrong motion ever after. From image to image nothing else
+/// says otherwise but measured depths, and these are outvoted: walking over a plain that 77 of 270 features had
+/// measured depths of, the yaw went astray by 0.2 degrees a second. So triangulated depths wait until measured ones are
+/// too few for a solution.
+void FrameToFrame::Impl::leave_unmeasured_depths() {
+  const bool enough = std::count_if(set.features.begin(), set.features.end(), measured) >= config.min_features;
+  for (Feature& f : set.features) {
+    if (f.depth_source == DepthSource::kTriangulated && enough) {
+      f.depth_source = DepthSource::kNone;
+      f.plane.setZero();
+    }
+    if (f.depth_source == DepthSource::kNone) f.sighting.depth = kUnknownDepth;
+  }
 }
 
 /// Measures a track's depth over the distance between its first sight and now, whenever that distance has grown.
