@@ -51,6 +51,7 @@ TEST(Drive, EstimateAndMapAreTheSameBytesForOneAndTwoThreadsAndOthersForOtherSee
   EXPECT_FALSE(record.map.empty());
   const std::string one = bytes_of(record);
   EXPECT_TRUE(one == bytes_of(drive("quickstart.yaml", kShortWalk, 2)));
+  EXPECT_TRUE(one == bytes_of(drive("quickstart.yaml", kShortWalk, 2)));
   std::vector<std::string> other = kShortWalk;
   other.push_back("seed=2");
   EXPECT_FALSE(one == bytes_of(drive("quickstart.yaml", other)));

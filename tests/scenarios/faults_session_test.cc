@@ -12,7 +12,7 @@ namespace {
 
 constexpr char kFaultyScenario[] = R"(
 world: {scene: garage}
-motion: {rest_s: 1, smoothing_s: 0.5, speed_mps: 1.5, waypoints: [[6, 4.75, 1.5], [8.5, 4.75, 1.5]]}
+motion: {rest_s: 1, smoothing_s: 1, speed_mps: 1.5, waypoints: [[6, 4.75, 1.5], [8, 4.75, 1.5], [10, 4.75, 1.5]]}
 rig: {camera: {width: 160, height: 96, rate_hz: 20}}
 )";
 
@@ -24,7 +24,7 @@ TEST_P(FaultySession, GoesOnWithFiniteOutputsAndCountsEveryMessage) {
   const TemporaryDirectory files;
   const auto& [sensor, kind] = GetParam();
   const std::string fault =
-      "faults=[{sensor: " + sensor + ", kind: " + kind + ", start_s: 1.3, end_s: 2.3, probability: 0.6}]";
+      "faults=[{sensor: " + sensor + ", kind: " + kind + ", start_s: 1.5, end_s: 3, probability: 0.6}]";
   const Scenario scenario = load_scenario(files.write("faulty.yaml", kFaultyScenario), {fault}, {});
   const World world = make_world(scenario);
   const RunRecord record = run_session(scenario, world, RayScene(world), {});
