@@ -74,6 +74,7 @@ struct ScanMatcher::Impl {
       : config(settings),
         sigma_m(std::max(kLeastMatchSigma_m, std::sqrt(2.0) * calibration.lidar_range_sigma_m)),
         bias_sigma_m(kBiasShare * calibration.lidar_range_sigma_m),
+        biases(kWholeBias * bias_sigma_m),
         body_from_lidar(calibration.body_from_lidar),
         edges(settings.coarse_voxel_m, settings.edge_resolution_m),
         planes(settings.coarse_voxel_m, settings.plane_resolution_m),
@@ -95,7 +96,9 @@ struct ScanMatcher::Impl {
 
   ScanMatcherConfig config;
   double sigma_m;
-  double bias_sigma_m;
+  double bias_sigma_m;  ///< of the bias that all share, and of the part that is a ring's own
+  RangeBiases biases;
+  std::vector<SharedEstimate> matched_biases;  ///< of the last match
   Pose body_from_lidar;
   SolverOptions options;
   FitLimits plane_limits;
@@ -115,7 +118,7 @@ namespace {
 class MapConstraints {
  public:
   MapConstraints(const VoxelMap& edges, const VoxelMap& planes, const VoxelMap& clutter, const FitLimits& edge_limits,
-                 const FitLimits& plane_limits, double sigma_m, double bias_sigma_m,
+                 const FitLimits& plane_limits, double sigma_m, double bias_sigma_m, const RangeBiases& biases,
                  const Eigen::Vector3d& lidar_in_body, const FeatureCloud& features)
       : edges_(edges),
         planes_(planes),
@@ -124,6 +127,7 @@ class MapConstraints {
         plane_limits_(plane_limits),
         sigma_m_(sigma_m),
         bias_sigma_m_(bias_sigma_m),
+        biases_(biases),
         lidar_in_body_(lidar_in_body),
         features_(features) {
     plane_matches_.reserve(features.planes.size());
@@ -134,11 +138,11 @@ class MapConstraints {
     if (!searched_ || moved_far(world_from_body)) search(world_from_body);
     for (const PlaneMatch& m : plane_matches_) {
       add_plane_row(m.point_in_body, m.plane, world_from_body, sigma_m_, rows);
-      rows.share(m.laser, kWholeBias * bias_sigma_m_ * m.beam);
+      rows.share(m.laser, biases_.sigma_m(m.laser) * m.beam);
     }
     for (const LineMatch& m : line_matches_) {
       add_line_rows(m.point_in_body, m.line, world_from_body, m.sigma_m, rows);
-      rows.share(m.laser, kWholeBias * bias_sigma_m_ * m.beam);
+      rows.share(m.laser, biases_.sigma_m(m.laser) * m.beam);
     }
   }
 
@@ -184,9 +188,10 @@ class MapConstraints {
       Ring& ring = rings[rows.group(f)];
       const Eigen::Matrix3d beam_turns = (Eigen::Matrix3d::Identity() - beam * beam.transpose()) / range;
       const double weight = solved.weights[static_cast<std::size_t>(f)];
+      const double own_sigma_m = biases_.sigma_m(rows.group(f)) / kWholeBias;
       // A row's derivative by the position is its derivative by the feature's.
       for (int r = rows.first_row(f); r < rows.end_row(f); ++r) {
-        const Eigen::RowVector3d turning = bias_sigma_m_ * rows.jacobian(r).tail<3>().transpose() * beam_turns;
+        const Eigen::RowVector3d turning = own_sigma_m * rows.jacobian(r).tail<3>().transpose() * beam_turns;
         ring.gain += weight * rows.jacobian(r) * turning;
         ring.turning += weight * rows.d_shared(r) * turning;
         ring.pull += weight * rows.d_shared(r) * rows.jacobian(r);
@@ -204,7 +209,8 @@ class MapConstraints {
       const double unsolved = 1.0 / (ring.information + 1.0);
       drift.per_metre.push_back(pose_of_gradient * (ring.gain - unsolved * ring.pull * ring.turning));
       drift.per_renewal.push_back(unsolved * pose_of_gradient * ring.pull);
-      of_all += drift.per_metre.back();
+      // What all share is told from no ring's own: learning does not lessen it.
+      of_all += kWholeBias * bias_sigma_m_ / biases_.sigma_m(group) * drift.per_metre.back();
     }
     drift.per_metre.push_back(of_all);
     return drift;
@@ -271,6 +277,7 @@ class MapConstraints {
   const FitLimits& plane_limits_;
   double sigma_m_;
   double bias_sigma_m_;
+  const RangeBiases& biases_;
   Eigen::Vector3d lidar_in_body_;
   const FeatureCloud& features_;
   bool searched_ = false;
@@ -297,7 +304,7 @@ SolveResult ScanMatcher::match(const FeatureCloud& features, const PosePrior& wo
   m.planes.prepare(in_world(used.planes, world_from_body.mean));
   m.clutter.prepare(in_world(used.clutter, world_from_body.mean));
   MapConstraints constraints(m.edges, m.planes, m.clutter, m.edge_limits, m.plane_limits, m.sigma_m, m.bias_sigma_m,
-                             m.body_from_lidar.translation, used);
+                             m.biases, m.body_from_lidar.translation, used);
   m.rows.clear();
   std::size_t planes = 0;
   SolveResult solved = solve(
@@ -316,8 +323,17 @@ SolveResult ScanMatcher::match(const FeatureCloud& features, const PosePrior& wo
     m.rows[i].weight = feature < solved.weights_at_guess.size() ? solved.weights_at_guess[feature] : 0.0;
   }
   m.drift = constraints.drift(solved);
+  m.matched_biases = solved.shared;
   return solved;
 }
+
+void ScanMatcher::learn_range_biases(double step_m) {
+  Impl& m = *impl_;
+  if (m.drift.reach_m > 0.0) m.biases.learn(m.matched_biases, std::min(1.0, step_m / m.drift.reach_m));
+  m.matched_biases.clear();
+}
+
+const RangeBiases& ScanMatcher::range_biases() const { return impl_->biases; }
 
 const MatchDrift& ScanMatcher::drift() const { return impl_->drift; }
 

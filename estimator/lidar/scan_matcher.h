@@ -6,6 +6,7 @@
 
 #include "estimator/estimator.h"
 #include "estimator/lidar/features.h"
+#include "estimator/lidar/range_bias.h"
 #include "estimator/solver/detectors.h"
 #include "estimator/solver/robust_solver.h"
 
@@ -69,6 +70,11 @@ class ScanMatcher {
 
   /// Of the last match.
   const MatchDrift& drift() const;
+
+  /// Learns from the last match, once: a step [m] after the one before it.
+  void learn_range_biases(double step_m);
+  /// Scans should be rid of them before features are taken.
+  const RangeBiases& range_biases() const;
 
   /// Merges a scan into the map at a pose and forgets what is older than memory_path_m.
   /// @param path_m           distance travelled so far by the estimate

@@ -161,12 +161,13 @@ void Demo::go_on_without_images(const LidarScan& scan) {
   covariance_rate_ = unseen / seconds_between(scan.stamp_ns, scan.end_ns);
 }
 
-void Demo::use(const LidarScan& scan) {
+void Demo::use(const LidarScan& received) {
   // No motion is known before the first image.
-  if (!odometry_.covers(scan.stamp_ns) || !odometry_.covers(scan.end_ns)) {
+  if (!odometry_.covers(received.stamp_ns) || !odometry_.covers(received.end_ns)) {
     return gate_.drop(Module::kLidar, "before the start");
   }
   gate_.count_used(Module::kLidar);
+  const LidarScan scan = matcher_.range_biases().taken_off(received);
   const DeskewedScan deskewed = deskew(scan, odometry_, calibration_.body_from_lidar, scan.end_ns);
   vision_.add_depth_points(scan.end_ns, deskewed.points, odometry_.at(scan.end_ns));
   if (stages_.sweep_refinement) return refine_with_sweep(scan);
@@ -196,9 +197,11 @@ void Demo::match(const FeatureCloud& features, std::int64_t stamp_ns, const Pose
   if (last_ns != 0 && seconds_between(solved_ns_, stamp_ns) > kBlind_s) {
     vision_.go_on(stamp_ns, world_from_last_match_.local(solved.pose) / seconds_between(last_ns, stamp_ns));
   }
-  path_m_ += (solved.pose.translation - world_from_last_match_.translation).norm();
+  const double step_m = (solved.pose.translation - world_from_last_match_.translation).norm();
+  path_m_ += step_m;
   world_from_last_match_ = solved.pose;
   matcher_.insert(features, solved.pose, path_m_);
+  matcher_.learn_range_biases(step_m);
   if (solved.spectrum.well_conditioned == 6) {
     since_match_.setZero();
     fixed_ns_ = std::max(fixed_ns_, stamp_ns);

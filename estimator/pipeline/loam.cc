@@ -106,12 +106,13 @@ void Loam::add(const LidarScan& scan) {
   while (const auto message = gate_.next(state().stamp_ns)) handle(std::get<LidarScan>(*message));
 }
 
-void Loam::handle(const LidarScan& part) {
+void Loam::handle(const LidarScan& received) {
   // Of a scan that began before the start no motion is known, unless none is known at all.
-  const bool known = track_.covers(part.end_ns) && (imu_ == ImuUse::kNone || track_.covers(part.stamp_ns));
+  const bool known = track_.covers(received.end_ns) && (imu_ == ImuUse::kNone || track_.covers(received.stamp_ns));
   if (!known) return gate_.drop(Module::kLidar, "before the start");
   gate_.count_used(Module::kLidar);
   const StopWatch watch;
+  const LidarScan part = matcher_.range_biases().taken_off(received);
   const std::optional<LidarScan> sweep = assembler_.add(part);
   const std::int64_t now_ns = newest_return_ns(part);
   if (now_ns - odometry_.reference_ns() > SweepOdometry::kLongestSilence_ns)
@@ -194,9 +195,11 @@ void Loam::match(const FeatureCloud& features, std::int64_t stamp_ns) {
     health_.push_back(health_of(stamp_ns, Module::kLidar, solved, predicted, 0.0));
   }
   const Pose world_from_body = track_.at(stamp_ns);
-  path_m_ += (world_from_body.translation - last_position_).norm();
+  const double step_m = (world_from_body.translation - last_position_).norm();
+  path_m_ += step_m;
   last_position_ = world_from_body.translation;
   matcher_.insert(features, world_from_body, path_m_);
+  matcher_.learn_range_biases(step_m);
 }
 
 /// Odometry's motion of a whole sweep. With an IMU the map alone feeds back: over a sweep the IMU knows its motion

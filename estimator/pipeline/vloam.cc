@@ -138,12 +138,13 @@ void Vloam::handle(const DepthFrame& frame) {
   vision_.add_depth_image(frame, track_.at(frame.stamp_ns));
 }
 
-void Vloam::handle(const LidarScan& scan) {
+void Vloam::handle(const LidarScan& received) {
   // The first sweeps began before the start: no motion is known for their first points.
-  if (!track_.covers(scan.stamp_ns) || !track_.covers(scan.end_ns))
+  if (!track_.covers(received.stamp_ns) || !track_.covers(received.end_ns))
     return gate_.drop(Module::kLidar, "before the start");
   gate_.count_used(Module::kLidar);
   const StopWatch watch;
+  const LidarScan scan = matcher_.range_biases().taken_off(received);
   // What is matched corrects the state as it is now, so that a scan that came late is brought here by the motion since.
   const std::int64_t now_ns = filter_->state().stamp_ns;
   const DeskewedScan deskewed = deskew(scan, track_, calibration_.body_from_lidar, now_ns);
@@ -207,6 +208,7 @@ void Vloam::renew_map(const Eigen::Vector3d& step_in_body) {
   const MatchDrift& drift = matcher_.drift();
   if (drift.reach_m <= 0.0) return;
   filter_->renew_map(std::min(1.0, step_in_body.norm() / drift.reach_m), drift.covariance(step_in_body));
+  matcher_.learn_range_biases(step_in_body.norm());
 }
 
 template <typename Update>

@@ -215,6 +215,7 @@ class RobustSolve {
     }
     result_.information = data_.information;
     result_.gradient = data_.gradient;
+    if (result_.spectrum.well_conditioned > 0) result_.shared = shared_estimates();
     return result_;
   }
 
@@ -235,6 +236,21 @@ class RobustSolve {
     data_ = accumulate(rows_, result_.weights, &groups_);
     result_.information_of_rows = data_.information;
     eliminate(groups_, data_);
+  }
+
+  /// Of each group given the pose, widened by how well that is known.
+  std::vector<SharedEstimate> shared_estimates() const {
+    Matrix6d information = data_.information;
+    if (prior_) information += prior_->covariance.inverse();
+    const Eigen::LDLT<Matrix6d> factor(information);
+    std::vector<SharedEstimate> estimates;
+    estimates.reserve(groups_.size());
+    for (const SharedEquations& group : groups_) {
+      const double variance = 1.0 / (group.information + 1.0);
+      const Vector6d by_pose = variance * group.cross;
+      estimates.push_back({variance * group.gradient, variance + by_pose.dot(factor.solve(by_pose))});
+    }
+    return estimates;
   }
 
   void analyse_data() {

@@ -69,6 +69,12 @@ struct SolverOptions {
   double min_inlier_share = 0.3;        ///< fewer: nothing is well-conditioned
 };
 
+/// What a solution says of the number that a group of features shares, see ResidualRows::share().
+struct SharedEstimate {
+  double mean = 0.0;
+  double variance = 1.0;  ///< 1: nothing is known beyond the prior
+};
+
 struct SolveResult {
   Pose pose;          ///< the guess where nothing could be solved
   Spectrum spectrum;  ///< of the data at the first iteration
@@ -78,6 +84,7 @@ struct SolveResult {
   Vector6d gradient = Vector6d::Zero();
   /// J^T J of the rows alone, as if none shared an error.
   Matrix6d information_of_rows = Matrix6d::Zero();
+  std::vector<SharedEstimate> shared;  ///< of each group; empty if nothing was solved
   int features = 0;
   int inliers = 0;                       ///< with a weight above zero
   std::vector<double> weights;           ///< per feature, in [0, 1]
