@@ -33,6 +33,8 @@ double RangeBiases::sigma_m(int ring) const {
 }
 
 void RangeBiases::learn(const std::vector<SharedEstimate>& matched, double renewed) {
+  // A bias that all share, as with a line scanner on a motor, is in the map, too: nothing can be told of it.
+  if (matched.size() < 2) return;
   if (bias_m_.size() < matched.size()) {
     bias_m_.resize(matched.size(), 0.0F);
     left_m_.resize(matched.size(), sigma_m_);

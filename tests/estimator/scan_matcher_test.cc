@@ -182,6 +182,17 @@ TEST(ScanMatcher, LearnsTheBiasesOfItsRings) {
   EXPECT_LT(bent_learning, 0.5 * bent);
 }
 
+TEST(RangeBiases, OfASingleLaserNothingIsLearnt) {
+  const SharedEstimate certain{1.0, 0.01};
+  RangeBiases biases(0.01);
+  biases.learn({certain}, 1.0);
+  EXPECT_TRUE(biases.metres().empty());
+  biases.learn({certain, certain}, 1.0);
+  ASSERT_EQ(biases.metres().size(), 2U);
+  EXPECT_NEAR(biases.metres()[1], 0.01F, 1e-3F);
+  EXPECT_LT(biases.sigma_m(1), 0.01);
+}
+
 /// In flight above a plain, the lidar looking down at 45 degrees: what the front rings lay down, the rear ones lie on,
 /// and where their ranges are biased the map bends with every renewal. A filter that is to trust gravity more than such
 /// a map has to be told by how much it may bend.
