@@ -7,8 +7,7 @@ namespace plumbline {
 namespace {
 
 // What the map holds of a ring was laid down with the bias that is looked for, so that a match sees only part of it,
-// and what comes first is no better than what comes later: learning never stops. After a hundred metres of tunnel 1 to
-// 2 mm of 11 were left.
+// and what comes first is no better than what comes later: learning never stops.
 constexpr double kLeastLeft = 0.3;
 // Nor is a bias believed to be several times as large as its sigma: what a beam's width adds at grazing incidence looks
 // like one, and differs from surface to surface.

@@ -9,7 +9,8 @@ namespace plumbline {
 
 /// The range bias of each ring, learnt while matching. Calibrations leave a centimetre of it (Glennie and Lichti,
 /// Remote Sensing 2(6), 2010), constant for hours, and what it bends never averages out: along a smooth tunnel, where
-/// each ring is first to see the ground at its own distance ahead, it turns pitch by half a degree in a hundred metres.
+/// each ring is first to see the ground at its own distance ahead, it turns pitch by tenths of a degree in a hundred
+/// metres.
 class RangeBiases {
  public:
   /// @param sigma_m  of a ring's bias, as long as nothing is learnt
