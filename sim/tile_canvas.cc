@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "sim/random_stream.h"
 
@@ -29,16 +30,23 @@ void TileCanvas::add_noise(int cell, float amplitude, float sharpness, std::uint
   for (int i = 0; i < cell; ++i) {
     weights[static_cast<std::size_t>(i)] = smooth_step(static_cast<float>(i) / static_cast<float>(cell));
   }
-  std::vector<float> knots(static_cast<std::size_t>(lattice) + 1);
+  const auto knot_count = static_cast<std::size_t>(lattice) + 1;
+  std::vector<float> knots(knot_count);
+  std::vector<float> above(knot_count);
+  std::vector<float> below(knot_count);
+  const auto read_lattice = [&](std::vector<float>& row, int y) {
+    for (int k = 0; k <= lattice; ++k) row[static_cast<std::size_t>(k)] = lattice_value(seed, k % lattice, y % lattice);
+  };
+  read_lattice(below, 0);
   Eigen::ArrayXf noise(size_);
   Eigen::ArrayXf steep(size_);
   for (int y = 0; y < size_; ++y) {
-    const float down = weights[static_cast<std::size_t>(y % cell)];
-    for (int k = 0; k <= lattice; ++k) {
-      const float above = lattice_value(seed, k % lattice, y / cell);
-      const float below = lattice_value(seed, k % lattice, (y / cell + 1) % lattice);
-      knots[static_cast<std::size_t>(k)] = above + (below - above) * down;
+    if (y % cell == 0) {
+      std::swap(above, below);
+      read_lattice(below, y / cell + 1);
     }
+    const float down = weights[static_cast<std::size_t>(y % cell)];
+    for (std::size_t k = 0; k < knot_count; ++k) knots[k] = above[k] + (below[k] - above[k]) * down;
     float* into = noise.data();
     for (int k = 0; k < lattice; ++k) {
       const float left = knots[static_cast<std::size_t>(k)];
@@ -63,10 +71,20 @@ void TileCanvas::add_shape(const Eigen::Vector2f& centre, const Eigen::Vector2f&
                            Coverage&& coverage) {
   const Eigen::Vector2i low = (centre - half_extent).array().floor().cast<int>();
   const Eigen::Vector2i high = (centre + half_extent).array().ceil().cast<int>();
+  // Floats of their own: for all the compiler knows, a texel could be one of the centre's.
+  const float middle_x = centre.x();
+  const float middle_y = centre.y();
   for (int y = low.y(); y <= high.y(); ++y) {
-    for (int x = low.x(); x <= high.x(); ++x) {
-      const Eigen::Vector2f offset(static_cast<float>(x) - centre.x(), static_cast<float>(y) - centre.y());
-      values_[index(x, y)] += value * std::clamp(coverage(offset), 0.0F, 1.0F);
+    const float down = static_cast<float>(y) - middle_y;
+    // Up to the tile's edge, and on from its other one.
+    for (int x = low.x(); x <= high.x();) {
+      float* const texels = &values_[index(x, y)];
+      const int run = std::min(high.x() - x + 1, size_ - (x & (size_ - 1)));
+      for (int i = 0; i < run; ++i) {
+        const float right = static_cast<float>(x + i) - middle_x;
+        texels[i] += value * std::max(0.0F, std::min(1.0F, coverage(right, down)));
+      }
+      x += run;
     }
   }
 }
@@ -76,16 +94,18 @@ void TileCanvas::add_box(const Eigen::Vector2f& centre, const Eigen::Vector2f& h
   const float s = std::sin(angle);
   const Eigen::Vector2f extent(std::abs(c) * half_size.x() + std::abs(s) * half_size.y() + 1.0F,
                                std::abs(s) * half_size.x() + std::abs(c) * half_size.y() + 1.0F);
-  add_shape(centre, extent, value, [&](const Eigen::Vector2f& offset) {
-    const float along = half_size.x() - std::abs(c * offset.x() + s * offset.y());
-    const float across = half_size.y() - std::abs(c * offset.y() - s * offset.x());
-    return std::clamp(along + 0.5F, 0.0F, 1.0F) * std::clamp(across + 0.5F, 0.0F, 1.0F);
+  const float half_x = half_size.x();
+  const float half_y = half_size.y();
+  add_shape(centre, extent, value, [c, s, half_x, half_y](float right, float down) {
+    const float along = half_x - std::abs(c * right + s * down);
+    const float across = half_y - std::abs(c * down - s * right);
+    return std::max(0.0F, std::min(1.0F, along + 0.5F)) * std::max(0.0F, std::min(1.0F, across + 0.5F));
   });
 }
 
 void TileCanvas::add_disc(const Eigen::Vector2f& centre, float radius, float value) {
   add_shape(centre, Eigen::Vector2f::Constant(radius + 1.0F), value,
-            [&](const Eigen::Vector2f& offset) { return radius + 0.5F - offset.norm(); });
+            [radius](float right, float down) { return radius + 0.5F - std::sqrt(right * right + down * down); });
 }
 
 void TileCanvas::add_crack(const Eigen::Vector2f& start, float length, float width, float value, std::uint64_t seed) {
