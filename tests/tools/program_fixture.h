@@ -15,7 +15,7 @@ namespace plumbline {
 /// A second or two of a metre's way, with few images: most of a short run's time goes into those.
 inline constexpr const char* kShortScenario =
     "world: {scene: conference_room}\n"
-    "rig: {camera: {rate_hz: 5}}\n"
+    "rig: {camera: {rate_hz: 5, width: 320, height: 180}}\n"
     "motion: {rest_s: 0.5, smoothing_s: 0.5, waypoints: [[0, 0, 1.5], [1, 0, 1.5]]}\n";
 
 /// The program itself, called in a directory of its own; what it says goes to said.txt.

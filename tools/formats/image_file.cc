@@ -1,11 +1,12 @@
 #include "tools/formats/image_file.h"
 
 #include <cstring>
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "scenarios/input_error.h"
+#include "tools/formats/output_file.h"
+#include "tools/formats/png.h"
 #include "tools/formats/text_table.h"
 
 namespace plumbline {
@@ -13,52 +14,31 @@ namespace {
 
 constexpr std::uintmax_t kMostFileBytes = std::uintmax_t{256} << 20;
 
-// Hard to squeeze for its size: noise. Level 1 costs a fifth of the default's time and a few percent of size.
-const std::vector<int> kFastPng{cv::IMWRITE_PNG_COMPRESSION, 1};
+constexpr int kPngEffort = 1;  // camera images are noise: hard to squeeze, and level 1 leaves a few percent at most
 
-std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 0; i < 4; ++i) value = value << 8U | static_cast<unsigned char>(bytes[at + i]);
-  return value;
-}
-
-/// A PNG's header is looked at before its decoder is let loose on it; what else OpenCV reads, it bounds by itself.
-void check_png_size(const std::filesystem::path& path, const std::string& bytes) {
-  constexpr std::size_t kWidthAt = 16;
-  constexpr std::size_t kHeightAt = 20;
-  if (bytes.compare(0, 4, "\x89PNG") != 0 || bytes.size() < kHeightAt + 4) return;
-  const std::uint32_t width = big_endian(bytes, kWidthAt);
-  const std::uint32_t height = big_endian(bytes, kHeightAt);
-  if (width <= kMostImageSide && height <= kMostImageSide) return;
-  throw InputError(path.string() + ": found an image of " + std::to_string(width) + " x " + std::to_string(height) +
-                   ", allowed are sides to " + std::to_string(kMostImageSide));
-}
-
-cv::Mat decoded(const std::filesystem::path& path, int flags) {
-  const std::string bytes = read_bounded_file(path, kMostFileBytes);
-  check_png_size(path, bytes);
-  cv::Mat image;
+cv::Mat decoded(const std::filesystem::path& path) {
   try {
-    if (!bytes.empty()) image = cv::imdecode(std::vector<char>(bytes.begin(), bytes.end()), flags);
-  } catch (const cv::Exception&) {
-    image.release();
+    return decode_png(read_bounded_file(path, kMostFileBytes), kMostImageSide);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(path.string() + ": no image that can be read: " + error.what());
   }
-  if (image.empty()) throw InputError(path.string() + ": no image that can be read");
-  if (image.cols > kMostImageSide || image.rows > kMostImageSide) {
-    throw InputError(path.string() + ": found an image of " + std::to_string(image.cols) + " x " +
-                     std::to_string(image.rows) + ", allowed are sides to " + std::to_string(kMostImageSide));
-  }
-  return image.isContinuous() ? image : image.clone();
 }
 
 void write_png(const std::filesystem::path& path, const cv::Mat& image) {
-  bool written = false;
-  try {
-    written = cv::imwrite(path.string(), image, kFastPng);
-  } catch (const cv::Exception&) {
-    written = false;
+  const std::vector<std::uint8_t> png = encode_png(image, kPngEffort);
+  write_whole_file(path, {reinterpret_cast<const char*>(png.data()), png.size()});
+}
+
+/// 8-bit grey, colours weighed as for the eye.
+cv::Mat as_grey(const cv::Mat& image) {
+  if (image.type() == CV_8UC1) return image;
+  cv::Mat grey;
+  if (image.type() == CV_8UC3) {
+    cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
+  } else {
+    image.convertTo(grey, CV_8U, 1.0 / 257.0);
   }
-  if (!written) throw std::runtime_error(path.string() + ": cannot be written");
+  return grey;
 }
 
 template <typename Pixel>
@@ -71,7 +51,7 @@ void check_pixels(const std::filesystem::path& path, int width, int height, cons
 }  // namespace
 
 CameraFrame read_grey_image(const std::filesystem::path& path) {
-  const cv::Mat image = decoded(path, cv::IMREAD_GRAYSCALE);
+  const cv::Mat image = as_grey(decoded(path));
   CameraFrame frame;
   frame.width = image.cols;
   frame.height = image.rows;
@@ -80,7 +60,7 @@ CameraFrame read_grey_image(const std::filesystem::path& path) {
 }
 
 DepthImage read_depth_image(const std::filesystem::path& path) {
-  const cv::Mat image = decoded(path, cv::IMREAD_UNCHANGED);
+  const cv::Mat image = decoded(path);
   if (image.type() != CV_16UC1) throw InputError(path.string() + ": expected a 16-bit image of one channel");
   DepthImage depth{image.cols, image.rows, std::vector<std::uint16_t>(image.total())};
   std::memcpy(depth.values.data(), image.data, depth.values.size() * sizeof(std::uint16_t));

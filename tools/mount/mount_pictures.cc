@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
 
+#include "tools/formats/png.h"
 #include "tools/report/markup.h"
 #include "tools/report/svg_axes.h"
 
@@ -23,12 +24,11 @@ std::string figure(const MountView::Picture& picture, const std::string& caption
     const bool is_own = picture.brightness[at] < 0.0F;
     image(i / picture.width, i % picture.width) = is_own ? cv::Vec3b(40, 40, 190) : cv::Vec3b(value, value, value);
   }
-  std::vector<std::uint8_t> png;
-  cv::imencode(".png", image, png);
   const double height = kFigureWidth * stretch * picture.height / picture.width;
   return "<figure>" + svg_open(kFigureWidth, height, caption) + "<image width=\"" + coordinate(kFigureWidth) +
-         "\" height=\"" + coordinate(height) + "\" preserveAspectRatio=\"none\" href=\"" + png_data_address(png) +
-         "\"/></svg><figcaption>" + escape_markup(caption) + "</figcaption></figure>";
+         "\" height=\"" + coordinate(height) + "\" preserveAspectRatio=\"none\" href=\"" +
+         png_data_address(encode_png(image, 4)) + "\"/></svg><figcaption>" + escape_markup(caption) +
+         "</figcaption></figure>";
 }
 
 }  // namespace

@@ -1,9 +1,10 @@
 #include "tools/report/camera_picture.h"
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
 
 #include "tools/formats/number_text.h"
+#include "tools/formats/png.h"
 #include "tools/report/markup.h"
 #include "tools/report/svg_axes.h"
 
@@ -17,9 +18,7 @@ std::string png_of(const CameraFrame& frame) {
   if (frame.width <= 0 || frame.height <= 0 || frame.pixels.size() != size) return {};
   cv::Mat picture(frame.height, frame.width, CV_8U);
   std::copy(frame.pixels.begin(), frame.pixels.end(), picture.begin<std::uint8_t>());
-  std::vector<std::uint8_t> png;
-  cv::imencode(".png", picture, png, {cv::IMWRITE_PNG_COMPRESSION, 2});
-  return png_data_address(png);
+  return png_data_address(encode_png(picture, 2));
 }
 
 std::string depth_class(const TrackedFeature& feature) {

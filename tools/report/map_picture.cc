@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
 
 #include "tools/evaluation/quantile.h"
 #include "tools/formats/number_text.h"
+#include "tools/formats/png.h"
 #include "tools/report/markup.h"
 #include "tools/report/svg_axes.h"
 
@@ -131,9 +132,7 @@ std::string raster(const std::vector<Eigen::Vector3d>& map, const Axes& axes, co
       if (count > 0) picture.at<cv::Vec4b>(y, x)[3] = cv::saturate_cast<uchar>(60.0 + 45.0 * std::log2(1.0 + count));
     }
   }
-  std::vector<std::uint8_t> png;
-  cv::imencode(".png", picture, png, {cv::IMWRITE_PNG_COMPRESSION, 4});
-  return png_data_address(png);
+  return png_data_address(encode_png(picture, 4));
 }
 
 std::string path_of(const std::vector<PosePair>& pairs, const Pose PosePair::*track, const Axes& axes,

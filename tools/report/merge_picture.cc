@@ -1,7 +1,9 @@
 #include "tools/report/merge_picture.h"
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
+
+#include "tools/formats/png.h"
 
 namespace plumbline {
 namespace {
@@ -64,9 +66,7 @@ class View {
 std::vector<std::uint8_t> merge_picture(const std::vector<MapPoint>& a, const std::vector<MapPoint>& b) {
   cv::Mat both;
   cv::vconcat(View(a, b, /*up=*/1).image(), View(a, b, /*up=*/2).image(), both);
-  std::vector<std::uint8_t> png;
-  cv::imencode(".png", both, png);
-  return png;
+  return encode_png(both, 4);
 }
 
 }  // namespace plumbline

@@ -211,7 +211,8 @@ TEST_F(KittiRaw, ImagesThatAreNoneAreNamed) {
   write("image_00/data/0000000000.png", "no picture");
   EXPECT_THAT(complaint(), HasSubstr("0000000000.png: no image that can be read"));
   // A header that promises 2^31 pixels a side.
-  std::string png("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\x7f\xff\xff\xff\x7f\xff\xff\xff\x08\0\0\0\0", 29);
+  std::string png(
+      "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\x7f\xff\xff\xff\x7f\xff\xff\xff\x08\0\0\0\0\x31\xa2\x54\xba\0\0\0\0IDAT", 41);
   write("image_00/data/0000000000.png", png);
   EXPECT_THAT(complaint(), HasSubstr("allowed are sides to 8192"));
 }

@@ -23,7 +23,7 @@ class ReplayProgram : public ProgramFixture {
     directory_.write("walk.yaml",
                      "world: {scene: garage}\n"
                      "motion: {rest_s: 1, smoothing_s: 0.5, waypoints: [[6, 4.75, 1.5], [8, 4.75, 1.5]]}\n"
-                     "rig: {camera: {width: 160, height: 120}}\n");
+                     "rig: {camera: {rate_hz: 20, width: 160, height: 120}}\n");
   }
 
   double worst_difference_m(const std::string& one, const std::string& other) const {
