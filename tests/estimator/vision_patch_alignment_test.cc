@@ -123,9 +123,9 @@ TEST(PatchAlignment, FindsNothingBesideTheImageOrWithoutACorner) {
 
 /// Contrast that falls to a third over 6 m, as it does towards the rim of an image or where the light falls off.
 void fade(testing::TexturedPlane& plane) {
-  for (int y = 0; y < plane.texture.rows; ++y) {
-    for (int x = 0; x < plane.texture.cols; ++x) {
-      auto& grey = plane.texture.at<std::uint8_t>(y, x);
+  for (int y = 0; y < plane.texture->rows; ++y) {
+    for (int x = 0; x < plane.texture->cols; ++x) {
+      auto& grey = plane.texture->at<std::uint8_t>(y, x);
       const double share = std::clamp(std::exp((900.0 - x) * plane.metres_per_texel / 5.5), 0.1, 1.0);
       grey = cv::saturate_cast<std::uint8_t>(110.0 + share * (grey - 110.0));
     }

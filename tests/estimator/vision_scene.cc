@@ -23,8 +23,8 @@ cv::Mat random_texture(int width, int height, std::uint64_t seed) {
 TexturedPlane textured_plane(const Eigen::Vector3d& centre, const Eigen::Vector3d& along, const Eigen::Vector3d& down,
                              double width_m, double height_m, double metres_per_texel, std::uint64_t seed) {
   TexturedPlane plane{centre - 0.5 * width_m * along - 0.5 * height_m * down, along, down, {}, metres_per_texel};
-  plane.texture =
-      random_texture(static_cast<int>(width_m / metres_per_texel), static_cast<int>(height_m / metres_per_texel), seed);
+  plane.texture = std::make_shared<cv::Mat>(random_texture(static_cast<int>(width_m / metres_per_texel),
+                                                           static_cast<int>(height_m / metres_per_texel), seed));
   return plane;
 }
 
@@ -51,7 +51,7 @@ cv::Mat draw(const std::vector<TexturedPlane>& planes, const Calibration& calibr
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) homography(i, j) = h(i, j);
     }
-    cv::warpPerspective(plane.texture, image, homography, image.size(), cv::INTER_LINEAR, cv::BORDER_TRANSPARENT);
+    cv::warpPerspective(*plane.texture, image, homography, image.size(), cv::INTER_LINEAR, cv::BORDER_TRANSPARENT);
   }
   return image;
 }
@@ -85,7 +85,7 @@ std::vector<Eigen::Vector3f> lidar_points(const std::vector<TexturedPlane>& plan
         const Eigen::Vector3d offset = world_from_body.translation + range * beam - plane.origin;
         const double u = offset.dot(plane.along) / plane.metres_per_texel;
         const double v = offset.dot(plane.down) / plane.metres_per_texel;
-        if (u >= 0 && v >= 0 && u < plane.texture.cols && v < plane.texture.rows) nearest = range;
+        if (u >= 0 && v >= 0 && u < plane.texture->cols && v < plane.texture->rows) nearest = range;
       }
       if (nearest >= 100.0) continue;
       const double measured = nearest + range_sigma_m * random.gaussian();

@@ -2,20 +2,25 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <opencv2/core/mat.hpp>
+#include <memory>
 #include <vector>
 
 #include "estimator/messages.h"
 #include "sim/random_stream.h"
 
+namespace cv {
+class Mat;
+}
+
 /// Textured planes drawn by homography: images, lidar-like points and poses that are exactly consistent.
 namespace plumbline::testing {
 
+/// Copies share their texture.
 struct TexturedPlane {
   Eigen::Vector3d origin;  ///< in W, of the texture's top left corner
   Eigen::Vector3d along;   ///< unit, texture columns
   Eigen::Vector3d down;    ///< unit, texture rows
-  cv::Mat texture;
+  std::shared_ptr<cv::Mat> texture;
   double metres_per_texel = 0.01;
 };
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <opencv2/core/mat.hpp>
 
 #include "estimator/vision/depth_image.h"
 #include "tests/estimator/vision_scene.h"
