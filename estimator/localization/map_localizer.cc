@@ -1,6 +1,5 @@
 #include "estimator/localization/map_localizer.h"
 
-#include <Eigen/Cholesky>
 #include <vector>
 
 #include "estimator/lidar/direction_sampling.h"
@@ -69,14 +68,6 @@ std::vector<FeaturePoint> found_on_itself(const std::vector<FeaturePoint>& plane
   return found;
 }
 
-Matrix6d covariance_of(const SolveResult& solved) {
-  const int n = solved.spectrum.well_conditioned;
-  if (n == 0) return Matrix6d::Zero();
-  const Eigen::MatrixXd basis = solved.spectrum.eigenvectors.rightCols(n);
-  const Eigen::MatrixXd reduced = basis.transpose() * solved.information * basis / kInflation;
-  return basis * reduced.ldlt().solve(Eigen::MatrixXd(basis.transpose()));
-}
-
 }  // namespace
 
 MapLocalizer::MapLocalizer(const Calibration& calibration, const PriorMap& map, const Pose& map_from_start,
@@ -112,7 +103,7 @@ MapFix MapLocalizer::locate(std::int64_t stamp_ns, const FeatureCloud& stack, co
   const MatchEvidence evidence = evidence_of(stack, solved);
   MapFix fix;
   fix.health = health_of(stamp_ns, Module::kLocalization, solved, predicted, watch.seconds());
-  fix.covariance = covariance_of(solved);
+  fix.covariance = kInflation * determined_covariance(solved);
   fix.match.stamp_ns = stamp_ns;
   fix.match.agreement = gate_.judge(evidence, odometry);
   fix.match.overlap = evidence.overlap;

@@ -41,12 +41,6 @@ Matrix6d step_covariance(const FrameToFrame::Step& step) {
   return kImageInflation * information.ldlt().solve(Matrix6d::Identity());
 }
 
-/// A covariance of world_from_body carried over to the body after a motion.
-Matrix6d carried(const Matrix6d& covariance, const Pose& before_from_after) {
-  const Matrix6d turn = adjoint(before_from_after.inverse());
-  return turn * covariance * turn.transpose();
-}
-
 }  // namespace
 
 Demo::Demo(const Calibration& calibration, const EstimatorConfig& config, const DemoConfig& stages)
@@ -110,10 +104,7 @@ void Demo::handle(const LidarScan& scan) { scans_.push_back(scan); }
 void Demo::note(const FrameToFrame::Step& step, std::int64_t previous_ns) {
   const std::int64_t newest_ns = vision_.newest_ns();
   const Pose motion = odometry_.at(previous_ns).inverse() * odometry_.at(newest_ns);
-  const Matrix6d added = step_covariance(step);
-  covariance_ = carried(covariance_, motion) + added;
-  since_match_ = carried(since_match_, motion) + added;
-  covariance_rate_ = added / seconds_between(previous_ns, newest_ns);
+  covariance_.carry(motion, step_covariance(step), seconds_between(previous_ns, newest_ns));
   if (step.skipped) return;
   solved_ns_ = newest_ns;
   fixed_ns_ = std::max(fixed_ns_, newest_ns);
@@ -155,10 +146,9 @@ void Demo::go_on_without_images(const LidarScan& scan) {
     vision_.go_on(scan.stamp_ns, Vector6d::Zero());
   }
   odometry_.push(scan.end_ns, vision_.predicted(scan.end_ns));
-  const Matrix6d unseen = kImageInflation / kPredictionInformation * Matrix6d::Identity();
-  covariance_ += unseen;
-  since_match_ += unseen;
-  covariance_rate_ = unseen / seconds_between(scan.stamp_ns, scan.end_ns);
+  covariance_.carry(odometry_.at(scan.stamp_ns).inverse() * odometry_.at(scan.end_ns),
+                    kImageInflation / kPredictionInformation * Matrix6d::Identity(),
+                    seconds_between(scan.stamp_ns, scan.end_ns));
 }
 
 void Demo::use(const LidarScan& received) {
@@ -179,7 +169,7 @@ void Demo::use(const LidarScan& received) {
 
 void Demo::refine_with_sweep(const LidarScan& part) {
   const StopWatch watch;
-  const auto sweep = sweeps_.add(part, odometry_, since_match_covariance());
+  const auto sweep = sweeps_.add(part, odometry_, covariance_against_map());
   if (!sweep) return;
   if (sweep->solved.features > 0) {
     health_.push_back(health_of(sweep->end_ns, Module::kLidar, sweep->solved, sweep->solved.pose, watch.seconds()));
@@ -191,26 +181,25 @@ void Demo::refine_with_sweep(const LidarScan& part) {
 /// @param seconds  already spent on them
 void Demo::match(const FeatureCloud& features, std::int64_t stamp_ns, const Pose& predicted, double seconds) {
   const StopWatch watch;
-  const SolveResult solved = matcher_.match(features, {predicted, since_match_covariance()});
+  const SolveResult solved = matcher_.match(features, {predicted, covariance_against_map()});
   integration_.refine(solved.pose, odometry_.at(stamp_ns));
   const std::int64_t last_ns = std::exchange(match_ns_, stamp_ns);
   if (last_ns != 0 && seconds_between(solved_ns_, stamp_ns) > kBlind_s) {
     vision_.go_on(stamp_ns, world_from_last_match_.local(solved.pose) / seconds_between(last_ns, stamp_ns));
   }
-  const double step_m = (solved.pose.translation - world_from_last_match_.translation).norm();
-  path_m_ += step_m;
+  const Eigen::Vector3d step_in_body =
+      solved.pose.rotation.conjugate() * (solved.pose.translation - world_from_last_match_.translation);
+  path_m_ += step_in_body.norm();
   world_from_last_match_ = solved.pose;
   matcher_.insert(features, solved.pose, path_m_);
-  matcher_.learn_range_biases(step_m);
-  if (solved.spectrum.well_conditioned == 6) {
-    since_match_.setZero();
-    fixed_ns_ = std::max(fixed_ns_, stamp_ns);
-  }
+  matcher_.learn_range_biases(step_in_body.norm());
+  covariance_.match(solved, matcher_.drift(), step_in_body);
+  if (solved.spectrum.well_conditioned == 6) fixed_ns_ = std::max(fixed_ns_, stamp_ns);
   health_.push_back(health_of(stamp_ns, Module::kLidar, solved, predicted, seconds + watch.seconds()));
 }
 
-Matrix6d Demo::since_match_covariance() const {
-  Matrix6d covariance = since_match_;
+Matrix6d Demo::covariance_against_map() const {
+  Matrix6d covariance = covariance_.since_match();
   covariance.diagonal().head<3>().array() += kMapRotationSigma * kMapRotationSigma;
   covariance.diagonal().tail<3>().array() += kMapTranslationSigma_m * kMapTranslationSigma_m;
   return covariance;
@@ -222,9 +211,9 @@ Odometry Demo::output(std::int64_t stamp_ns) {
   if (!vision_.started()) return odometry;
   odometry.world_from_body = integration_.world_from_body(vision_.predicted(stamp_ns));
   const double since_image_s = std::max(0.0, seconds_between(vision_.newest_ns(), stamp_ns));
-  odometry.covariance = covariance_ + since_image_s * covariance_rate_;
+  odometry.covariance = covariance_.of_world() + since_image_s * covariance_.per_s();
   const double since_output_s = output_ns_ == 0 ? 0.0 : seconds_between(output_ns_, stamp_ns);
-  odometry.increment_covariance = since_output_s * covariance_rate_;
+  odometry.increment_covariance = since_output_s * covariance_.per_s();
   output_ns_ = stamp_ns;
   odometry.lost = (fixed_ns_ != 0 && seconds_between(fixed_ns_, stamp_ns) > kLost_s) ||
                   odometry.covariance.bottomRightCorner<3, 3>().trace() > kLostSigma_m * kLostSigma_m;

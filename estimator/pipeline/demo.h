@@ -8,6 +8,7 @@
 #include "estimator/geometry/interpolation.h"
 #include "estimator/lidar/scan_matcher.h"
 #include "estimator/lidar/sweep_refinement.h"
+#include "estimator/pipeline/matched_covariance.h"
 #include "estimator/pipeline/message_gate.h"
 #include "estimator/pipeline/transform_integration.h"
 #include "estimator/vision/bundle_adjustment.h"
@@ -55,7 +56,7 @@ class Demo final : public Estimator {
   void use(const LidarScan& scan);
   void refine_with_sweep(const LidarScan& part);
   void match(const FeatureCloud& features, std::int64_t stamp_ns, const Pose& predicted, double seconds);
-  Matrix6d since_match_covariance() const;
+  Matrix6d covariance_against_map() const;
   Odometry output(std::int64_t stamp_ns);
 
   Calibration calibration_;
@@ -76,10 +77,7 @@ class Demo final : public Estimator {
   std::int64_t match_ns_ = 0;   ///< of the last sweep matched
   std::int64_t fixed_ns_ = 0;   ///< of the last image or sweep that determined all directions
 
-  Matrix6d covariance_ = Matrix6d::Zero();       ///< of world_from_body at the newest image
-  Matrix6d covariance_rate_ = Matrix6d::Zero();  ///< its growth [1/s]
-  Matrix6d since_match_ = Matrix6d::Zero();      ///< of the motion since the last sweep matched
-  std::int64_t covariance_ns_ = 0;
+  MatchedCovariance covariance_;
   std::int64_t output_ns_ = 0;
   double path_m_ = 0.0;
   Pose world_from_last_match_;

@@ -1,5 +1,6 @@
 #include "estimator/pipeline/loam.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -68,7 +69,9 @@ void Loam::add(const ImuSample& received) {
     }
     advance_to(sample.stamp_ns, segment);
   }
+  if (filter_) increments_.update(*filter_, track_);
   outputs_.push_back(output(sample.stamp_ns));
+  outputs_.back().increment_covariance = increment_covariance(seconds_between(previous.stamp_ns, sample.stamp_ns));
   outputs_.back().health = std::exchange(health_, {});
 }
 
@@ -83,8 +86,10 @@ std::optional<InitialState> Loam::start_from(const ImuSample& sample) {
 void Loam::start_with(const InitialState& start) {
   if (imu_ == ImuUse::kFull) {
     filter_.emplace(start, calibration_.imu, remapping_);
+    increments_.start_at(start.state.stamp_ns);
   } else {
     steady_.emplace(start.state, imu_ == ImuUse::kNone);
+    start_ns_ = start.state.stamp_ns;
   }
   track_.push(start.state.stamp_ns, start.state.world_from_body);
   gate_.start_at(start.state.stamp_ns);
@@ -115,6 +120,8 @@ void Loam::handle(const LidarScan& received) {
   const LidarScan part = matcher_.range_biases().taken_off(received);
   const std::optional<LidarScan> sweep = assembler_.add(part);
   const std::int64_t now_ns = newest_return_ns(part);
+  if (newest_ns_ != 0) part_s_ = std::max(0.0, seconds_between(newest_ns_, now_ns));
+  newest_ns_ = now_ns;
   if (now_ns - odometry_.reference_ns() > SweepOdometry::kLongestSilence_ns)
     odometry_ = SweepOdometry(calibration_, remapping_);
   if (growing_ && *growing_ != part.sweep) odometry_.discard();  // its end never came
@@ -149,6 +156,7 @@ void Loam::finish(const Sweep& sweep) {
   const std::int64_t middle_ns = sweep.scan.stamp_ns + (sweep.end_ns - sweep.scan.stamp_ns) / 2;
   if (!odometry_.begun()) {
     first_ = sweep;
+    if (last_end_ns_ != 0) carry_covariance(sweep.end_ns, Matrix6d::Zero());  // sweeps in between were lost
     FeatureCloud features = features_of(sweep.scan, track_, sweep.end_ns);
     return begin_sweep(std::move(features), middle_ns, sweep.end_ns,
                        track_.at(middle_ns).inverse() * track_.at(sweep.end_ns));
@@ -161,6 +169,7 @@ void Loam::finish(const Sweep& sweep) {
                               : odometry_.corrected(sweep.end_ns, predicted_motion(sweep.end_ns), motion_.pose);
   const Pose middle_from_end =
       corrected(track_.at(middle_ns), middle_ns).inverse() * corrected(track_.at(sweep.end_ns), sweep.end_ns);
+  carry_covariance(sweep.end_ns, motion_.information / kSweepInflation);
   take_motion(sweep.end_ns);
   match(features, sweep.end_ns);
   begin_sweep(std::move(features), middle_ns, sweep.end_ns, middle_from_end);
@@ -181,6 +190,11 @@ void Loam::redo_first_sweep() {
     const Pose shift = track_.at(last_end_ns_) * corrected(track_.at(last_end_ns_), last_end_ns_).inverse();
     steady_->move(shift * state().world_from_body);
     track_.premultiply(shift);
+    // What the first sweep moved by is therefore missing.
+    const double share =
+        seconds_between(first_->scan.stamp_ns, last_end_ns_) / seconds_between(middle_ns, followed_ns_);
+    const Vector6d missing = share * Pose().local(motion_.pose);
+    covariance_.displace_map(missing * missing.transpose());
   }
   matcher_.insert(features, world_from_reference(), path_m_);
   last_position_ = world_from_reference().translation;
@@ -189,17 +203,31 @@ void Loam::redo_first_sweep() {
 
 void Loam::match(const FeatureCloud& features, std::int64_t stamp_ns) {
   const Pose predicted = track_.at(stamp_ns);
+  SolveResult solved;
   if (mapping_) {
-    const SolveResult solved = matcher_.match(features, {predicted, pose_covariance()});
+    solved = matcher_.match(features, {predicted, match_prior()});
     take_pose(solved, predicted);
     health_.push_back(health_of(stamp_ns, Module::kLidar, solved, predicted, 0.0));
   }
   const Pose world_from_body = track_.at(stamp_ns);
-  const double step_m = (world_from_body.translation - last_position_).norm();
-  path_m_ += step_m;
+  const Eigen::Vector3d step_in_body =
+      world_from_body.rotation.conjugate() * (world_from_body.translation - last_position_);
+  path_m_ += step_in_body.norm();
   last_position_ = world_from_body.translation;
   matcher_.insert(features, world_from_body, path_m_);
-  matcher_.learn_range_biases(step_m);
+  matcher_.learn_range_biases(step_in_body.norm());
+  if (steady_ && mapping_) covariance_.match(solved, matcher_.drift(), step_in_body);
+}
+
+/// From the last sweep's end on, over which steady motion foresees what odometry does not tell.
+void Loam::carry_covariance(std::int64_t end_ns, const Matrix6d& odometry_information) {
+  if (!steady_) return;
+  const double step_s = seconds_between(last_end_ns_, end_ns);
+  const Matrix6d foreseen = steady_->motion_covariance(step_s).ldlt().solve(Matrix6d::Identity());
+  covariance_.carry(track_.at(last_end_ns_).inverse() * corrected(track_.at(end_ns), end_ns),
+                    (odometry_information + foreseen).ldlt().solve(Matrix6d::Identity()), step_s);
+  covariance_.displace_map(
+      read_turn_covariance(seconds_between(start_ns_, last_end_ns_), seconds_between(start_ns_, end_ns)));
 }
 
 /// Odometry's motion of a whole sweep. With an IMU the map alone feeds back: over a sweep the IMU knows its motion
@@ -260,12 +288,36 @@ Matrix6d Loam::motion_covariance(std::int64_t now_ns) const {
                  : steady_->motion_covariance(seconds_between(odometry_.reference_ns(), now_ns));
 }
 
-Matrix6d Loam::pose_covariance() const {
+Matrix6d Loam::match_prior() const {
   if (filter_) return filter_->pose_covariance();
   Matrix6d covariance = Matrix6d::Zero();
   const double turn_sigma = imu_ == ImuUse::kNone ? kOdometrySigma_rad : kReadAttitudeSigma_rad;
   covariance.diagonal().head<3>().setConstant(turn_sigma * turn_sigma);
   covariance.diagonal().tail<3>().setConstant(kOdometrySigma_m * kOdometrySigma_m);
+  return covariance;
+}
+
+Matrix6d Loam::pose_covariance(std::int64_t stamp_ns) const {
+  if (filter_) return filter_->pose_covariance();
+  return covariance_.of_world() + steady_->motion_covariance(std::max(0.0, seconds_between(newest_ns_, stamp_ns)));
+}
+
+Matrix6d Loam::increment_covariance(double interval_s) const {
+  if (!started()) return initializer_.increment_covariance();
+  if (filter_) return increments_.covariance(interval_s);
+  // Both ends of a second's increment are foreseen, on average, over half the time from one part of a sweep to the
+  // next.
+  return interval_s *
+         (covariance_.per_s() + read_turn_covariance(0.0, 1.0) + 2.0 * steady_->motion_covariance(0.5 * part_s_));
+}
+
+/// Of attitude that is read, from one time since the start to another: the bias left in it turns it on and on.
+Matrix6d Loam::read_turn_covariance(double from_s, double to_s) const {
+  Matrix6d covariance = Matrix6d::Zero();
+  if (imu_ != ImuUse::kOrientation) return covariance;
+  const double growth = to_s * to_s - from_s * from_s;
+  covariance.diagonal().head<3>().setConstant(growth * calibration_.imu.gyro_turn_on_sigma *
+                                              calibration_.imu.gyro_turn_on_sigma);
   return covariance;
 }
 
@@ -300,7 +352,7 @@ Odometry Loam::output(std::int64_t stamp_ns) const {
   odometry.velocity_in_world = state().velocity_in_world;
   odometry.gyro_bias = state().gyro_bias;
   odometry.accel_bias = state().accel_bias;
-  odometry.covariance = pose_covariance();
+  odometry.covariance = pose_covariance(stamp_ns);
   odometry.lost = odometry.covariance.bottomRightCorner<3, 3>().trace() > kLostSigma_m * kLostSigma_m ||
                   !state().world_from_body.translation.allFinite();
   return odometry;

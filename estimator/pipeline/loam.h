@@ -12,6 +12,8 @@
 #include "estimator/lidar/steady_motion.h"
 #include "estimator/lidar/sweep_assembler.h"
 #include "estimator/lidar/sweep_odometry.h"
+#include "estimator/pipeline/increment_watch.h"
+#include "estimator/pipeline/matched_covariance.h"
 #include "estimator/pipeline/message_gate.h"
 
 namespace plumbline {
@@ -55,6 +57,7 @@ class Loam final : public Estimator {
   void finish(const Sweep& sweep);
   void redo_first_sweep();
   void match(const FeatureCloud& features, std::int64_t stamp_ns);
+  void carry_covariance(std::int64_t end_ns, const Matrix6d& odometry_information);
   void take_motion(std::int64_t now_ns);
   void take_pose(const SolveResult& solved, const Pose& predicted);
   void begin_sweep(FeatureCloud last_sweep, std::int64_t middle_ns, std::int64_t end_ns, const Pose& middle_from_end);
@@ -63,7 +66,10 @@ class Loam final : public Estimator {
   Pose world_from_reference() const;
   Pose predicted_motion(std::int64_t now_ns) const;
   Matrix6d motion_covariance(std::int64_t now_ns) const;
-  Matrix6d pose_covariance() const;
+  Matrix6d match_prior() const;
+  Matrix6d pose_covariance(std::int64_t stamp_ns) const;
+  Matrix6d increment_covariance(double interval_s) const;
+  Matrix6d read_turn_covariance(double from_s, double to_s) const;
   Pose correction(std::int64_t stamp_ns) const;
   Pose corrected(const Pose& world_from_body, std::int64_t stamp_ns) const;
   PoseTrack corrected_track() const;
@@ -89,6 +95,11 @@ class Loam final : public Estimator {
   Pose reference_from_last_end_;         ///< the reference is B in the middle of the sweep before
   std::int64_t followed_ns_ = 0;         ///< up to where odometry has followed the growing sweep
   SolveResult motion_;                   ///< its solution there, reference_from_body
+  MatchedCovariance covariance_;         ///< without a filter
+  std::int64_t start_ns_ = 0;
+  std::int64_t newest_ns_ = 0;  ///< of the newest return
+  double part_s_ = 0.0;         ///< from one part of a sweep to the next
+  IncrementWatch increments_;   ///< with one
   double path_m_ = 0.0;
   Eigen::Vector3d last_position_ = Eigen::Vector3d::Zero();
 

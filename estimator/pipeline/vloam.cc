@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::int64_t kTrackLength_ns = MessageGate::kLongestDelay_ns + SweepAssembler::kLongest_ns;
 constexpr std::int64_t kTurnTrackLength_ns = 3'000'000'000;  // longer than a key-frame lasts while its tracks do
-constexpr std::int64_t kIncrementWindow_ns = 1'000'000'000;
 
 // A solution's rows share errors that whitening does not know. Those of vision, hundredths of a pixel that tracks and
 // depths of one scene have in common, keep their sign over many key-frames: the images of a second together say no more
@@ -49,9 +48,11 @@ void Vloam::add(const ImuSample& received) {
     }
     advance_to(sample->stamp_ns, segment);
   }
-  watch_increments(sample->stamp_ns);
+  if (filter_) increments_.update(*filter_, track_);
   outputs_.push_back(output(sample->stamp_ns));
-  outputs_.back().increment_covariance = increment_covariance(seconds_between(previous.stamp_ns, sample->stamp_ns));
+  outputs_.back().increment_covariance =
+      filter_ ? increments_.covariance(seconds_between(previous.stamp_ns, sample->stamp_ns))
+              : initializer_.increment_covariance();
   outputs_.back().health = std::exchange(health_, {});
 }
 
@@ -61,7 +62,7 @@ void Vloam::start_with(const InitialState& start, const ImuSample& sample) {
   turn_track_.push(sample.stamp_ns, {});
   keyframe_ns_ = sample.stamp_ns;
   last_image_ns_ = sample.stamp_ns;
-  past_ns_ = sample.stamp_ns;
+  increments_.start_at(sample.stamp_ns);
   gate_.start_at(sample.stamp_ns);
 }
 
@@ -221,27 +222,6 @@ void Vloam::correct(Update&& update) {
 void Vloam::report(std::int64_t stamp_ns, Module module, const SolveResult& solved, const Pose& predicted,
                    double seconds) {
   health_.push_back(health_of(stamp_ns, module, solved, predicted, seconds));
-}
-
-/// The errors of successive steps share their causes, such as the velocity's error and the map's, so that the
-/// covariances of single steps could not be composed. Each step takes its share of the whole second's before it.
-void Vloam::watch_increments(std::int64_t stamp_ns) {
-  if (!filter_ || stamp_ns <= past_ns_) return;
-  const bool complete = stamp_ns - past_ns_ >= kIncrementWindow_ns;
-  if (!complete && knows_increments_) return;
-  // Seen from the middle of the window: composing shares from its two ends would count the lever arms twice.
-  const std::int64_t middle_ns = past_ns_ + (stamp_ns - past_ns_) / 2;
-  const Matrix6d carry = adjoint(track_.at(middle_ns).inverse() * filter_->state().world_from_body);
-  const double window_s = seconds_between(past_ns_, stamp_ns);
-  covariance_per_s_ = carry * filter_->past_motion_covariance() * carry.transpose() / window_s;
-  if (!complete) return;
-  knows_increments_ = true;
-  filter_->set_past();
-  past_ns_ = stamp_ns;
-}
-
-Matrix6d Vloam::increment_covariance(double interval_s) const {
-  return filter_ ? Matrix6d(interval_s * covariance_per_s_) : initializer_.increment_covariance();
 }
 
 Odometry Vloam::output(std::int64_t stamp_ns) const {

@@ -10,6 +10,7 @@
 #include "estimator/imu/initialization.h"
 #include "estimator/lidar/scan_matcher.h"
 #include "estimator/lidar/sweep_assembler.h"
+#include "estimator/pipeline/increment_watch.h"
 #include "estimator/pipeline/message_gate.h"
 #include "estimator/vision/visual_odometry.h"
 
@@ -62,8 +63,6 @@ class Vloam final : public Estimator {
   void correct(Update&& update);
   void report(std::int64_t stamp_ns, Module module, const SolveResult& solved, const Pose& predicted, double seconds);
   Odometry output(std::int64_t stamp_ns) const;
-  void watch_increments(std::int64_t stamp_ns);
-  Matrix6d increment_covariance(double interval_s) const;
 
   Calibration calibration_;
   EstimatorConfig config_;
@@ -86,9 +85,7 @@ class Vloam final : public Estimator {
   bool has_map_ = false;
   Eigen::Vector3d last_scan_position_ = Eigen::Vector3d::Zero();
 
-  std::int64_t past_ns_ = 0;  ///< stamp of the filter's past pose
-  bool knows_increments_ = false;
-  Matrix6d covariance_per_s_ = Matrix6d::Zero();  ///< of the motion over the last second
+  IncrementWatch increments_;
 
   std::vector<Odometry> outputs_;
   std::vector<ModuleHealth> health_;

@@ -296,4 +296,13 @@ SolveResult solve(const Pose& guess, const std::optional<PosePrior>& prior, cons
   return RobustSolve(guess, prior, linearize, options).run();
 }
 
+Matrix6d determined_covariance(const SolveResult& solved) {
+  const int n = solved.spectrum.well_conditioned;
+  if (n == 0) return Matrix6d::Zero();
+  const Eigen::MatrixXd basis = solved.spectrum.eigenvectors.rightCols(n);
+  const Eigen::MatrixXd information = basis.transpose() * solved.information * basis;
+  const Matrix6d covariance = basis * information.ldlt().solve(Eigen::MatrixXd(basis.transpose()));
+  return covariance.allFinite() ? covariance : Matrix6d::Zero();
+}
+
 }  // namespace plumbline

@@ -100,4 +100,8 @@ struct SolveResult {
 SolveResult solve(const Pose& guess, const std::optional<PosePrior>& prior, const Linearizer& linearize,
                   const SolverOptions& options);
 
+/// Covariance of a solution, right perturbation, as its data have it: zero along the directions that they leave
+/// undetermined, and all over where no inverse is to be had.
+Matrix6d determined_covariance(const SolveResult& solved);
+
 }  // namespace plumbline

@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <memory>
+#include <string>
 
 #include "estimator/estimator.h"
 #include "estimator/geometry/so3.h"
@@ -40,7 +42,10 @@ class LoamRun {
   }
   void wait_until(std::int64_t stamp_ns) {
     for (; clock_ns_ < stamp_ns; clock_ns_ += kClock_ns) estimator_->add(ImuSample{clock_ns_ + kClock_ns, {}, {}});
-    for (const Odometry& o : estimator_->take()) poses_[o.stamp_ns] = o.world_from_body;
+    for (const Odometry& o : estimator_->take()) {
+      poses_[o.stamp_ns] = o.world_from_body;
+      newest_ = o;
+    }
   }
   /// Sweeps of the turned scanner, and the output after them.
   void follow(const testing::BoxWorld& world, const Motion& motion, std::int64_t sweeps, std::uint64_t seed) {
@@ -51,6 +56,7 @@ class LoamRun {
     wait_until(sweeps * 1'000'000'000 + kClock_ns);
   }
   const Pose& at(std::int64_t stamp_ns) const { return poses_.at(stamp_ns); }
+  const Odometry& newest() const { return newest_; }
   const Estimator& estimator() const { return *estimator_; }
 
   /// Of the motion between two stamps, [rotation; translation].
@@ -63,6 +69,7 @@ class LoamRun {
   std::unique_ptr<Estimator> estimator_;
   std::int64_t clock_ns_ = 0;
   std::map<std::int64_t, Pose> poses_;
+  Odometry newest_;
 };
 
 Motion turning_walk(double speed_mps, double rate) {
@@ -147,6 +154,29 @@ TEST(WithoutAnImu, TheLidarAloneIsFollowed) {
   }
 }
 
+/// A pose that every match fixes is known as well after a minute as after a second. One that added up what no image had
+/// shown called itself lost in the end.
+TEST(WithoutAnImu, MatchesBoundWhatIsNotKnown) {
+  const testing::BoxWorld hall = testing::pillared_hall(40.0);
+  const Motion motion = [](double t) { return Pose{exp_so3({0.0, 0.0, 0.02 * t}), {0.3 * t, 0.0, 0.0}}; };
+  for (const char* name : {"demo_matched", "loam"}) {
+    Calibration calibration = calibration_of(16, 10.0);
+    calibration.has_camera = std::string(name) == "demo_matched";  // and no image ever comes
+    calibration.camera = {64, 36, 47.0, 47.0, 31.5, 17.5};
+    RandomStream noise(3, "lidar");
+    LoamRun run(calibration, {}, name);
+    for (std::int64_t k = 0; k < 60; ++k) run.add(testing::vlp16_scan(hall, motion, k * 100'000'000, {}, 0.012, noise));
+    run.wait_until(6'010'000'000);
+    const Odometry& end = run.newest();
+    EXPECT_FALSE(end.lost) << name;
+    // A scan that no image leads to is foreseen to 6 cm a direction; 60 of them would add up to 0.7 m^2.
+    EXPECT_LT(end.covariance.diagonal().tail(3).sum(), 0.1) << name;
+    EXPECT_GT(end.increment_covariance.diagonal().minCoeff(), 0.0) << name;
+    const Vector6d error = motion(1e-9 * static_cast<double>(end.stamp_ns)).local(end.world_from_body);
+    EXPECT_LT(error.dot(end.covariance.ldlt().solve(error)) / 6.0, 4.0) << name;
+  }
+}
+
 TEST(WithoutAnImu, WhatNeedsOneIsRefused) {
   EstimatorConfig config;
   config.imu_enabled = false;
@@ -189,6 +219,22 @@ TEST(Loam, OutlivesLostParts) {
   }
   run.wait_until(8'010'000'000);
   EXPECT_LT(run.error(motion, 2'100'000'000, 8'010'000'000).tail<3>().norm(), 0.05);
+}
+
+/// The first sweep after a silence is laid down where steady motion leads: over four seconds, anywhere within metres.
+TEST(Loam, ASilenceIsNotForgottenWithTheFirstSweepAfterIt) {
+  const testing::BoxWorld hall = testing::pillared_hall(40.0);
+  const Motion motion = [](double t) { return Pose{Eigen::Quaterniond::Identity(), {0.3 * t, 0.0, 0.0}}; };
+  RandomStream noise(7, "lidar");
+  LoamRun run(calibration_of(16, 10.0));
+  const auto add_scan = [&](std::int64_t k) {
+    run.add(testing::vlp16_scan(hall, motion, k * 100'000'000, {}, 0.012, noise));
+    run.wait_until((k + 1) * 100'000'000 + kClock_ns);
+  };
+  for (std::int64_t k = 0; k < 10; ++k) add_scan(k);
+  EXPECT_LT(run.newest().covariance.diagonal().tail(3).sum(), 0.1);
+  add_scan(50);
+  EXPECT_GT(run.newest().covariance.diagonal().tail(3).sum(), 0.5);
 }
 
 TEST(SweepAssembler, JoinsPartsWithTheirOwnTimes) {
