@@ -53,7 +53,7 @@ class MitigatedMatching {
   MitigatedMatching(Mitigation mitigation, const Calibration& calibration)
       : mitigation_(mitigation),
         range_sigma_m_(calibration.lidar_range_sigma_m),
-        matcher_(calibration, one_step_at_a_time(), /*remapping=*/true) {}
+        matcher_(calibration, one_step_at_a_time()) {}
 
   void start(const FeatureCloud& features, const Pose& world_from_body) {
     pose_ = world_from_body;
@@ -98,7 +98,7 @@ class Lab {
         calibration_(true_calibration(scenario.rig)),
         pack_from_body_(Eigen::Quaterniond::Identity(), scenario.rig.imu.position_in_body),
         truth_(scenario.rig.lidar, calibration_.body_from_lidar),
-        matcher_(calibration_, ScanMatcherConfig{}, /*remapping=*/true),
+        matcher_(calibration_, ScanMatcherConfig{}),
         guesses_(scenario.seed, "degeneracy lab"),
         reckoning_(scenario.seed, "degeneracy lab reckoning") {
     for (const Mitigation mitigation : kMitigations) matchings_.emplace_back(mitigation, calibration_);

@@ -70,7 +70,7 @@ std::vector<Eigen::Vector3d> in_world(const std::vector<FeaturePoint>& features,
 }  // namespace
 
 struct ScanMatcher::Impl {
-  Impl(const Calibration& calibration, const ScanMatcherConfig& settings, bool remap)
+  Impl(const Calibration& calibration, const ScanMatcherConfig& settings, WeakDirections weak)
       : config(settings),
         sigma_m(std::max(kLeastMatchSigma_m, std::sqrt(2.0) * calibration.lidar_range_sigma_m)),
         bias_sigma_m(kBiasShare * calibration.lidar_range_sigma_m),
@@ -85,7 +85,7 @@ struct ScanMatcher::Impl {
     options.rotation_tolerance = settings.rotation_tolerance;
     options.translation_tolerance = settings.translation_tolerance;
     options.degeneracy_threshold = settings.degeneracy_threshold;
-    options.remapping = remap;
+    options.weak = weak;
     options.min_features = settings.least_features;
     edge_limits.largest_residual_m = 0.03;
     plane_limits.map_sigma_m = edge_limits.map_sigma_m = 0.5 * calibration.lidar_range_sigma_m;
@@ -288,8 +288,8 @@ class MapConstraints {
 
 }  // namespace
 
-ScanMatcher::ScanMatcher(const Calibration& calibration, const ScanMatcherConfig& config, bool remapping)
-    : impl_(std::make_unique<Impl>(calibration, config, remapping)) {}
+ScanMatcher::ScanMatcher(const Calibration& calibration, const ScanMatcherConfig& config, WeakDirections weak)
+    : impl_(std::make_unique<Impl>(calibration, config, weak)) {}
 ScanMatcher::ScanMatcher(ScanMatcher&&) noexcept = default;
 ScanMatcher& ScanMatcher::operator=(ScanMatcher&&) noexcept = default;
 ScanMatcher::~ScanMatcher() = default;

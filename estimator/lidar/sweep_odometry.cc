@@ -168,13 +168,13 @@ FeatureCloud within_budget(const FeatureCloud& from, int effort) {
 /// One solve from one guess to the next, over the same features.
 class SweepSolve {
  public:
-  SweepSolve(SweepConstraints constraints, const PosePrior& prior, double sigma_m, bool remapping)
+  SweepSolve(SweepConstraints constraints, const PosePrior& prior, double sigma_m, WeakDirections weak)
       : constraints_(std::move(constraints)), prior_(prior), sigma_m_(sigma_m) {
     options_.max_iterations = kMaxIterations;
     options_.rotation_tolerance = 1e-4;
     options_.translation_tolerance = 5e-4;
     options_.degeneracy_threshold = kDegeneracyThreshold;
-    options_.remapping = remapping;
+    options_.weak = weak;
     options_.min_features = kLeastFeatures;
   }
 
@@ -210,10 +210,10 @@ Pose linear_share(const Pose& corrected, const Pose& predicted, double share) {
   return interpolate(Pose{}, corrected * predicted.inverse(), share);
 }
 
-SweepOdometry::SweepOdometry(const Calibration& calibration, bool remapping)
+SweepOdometry::SweepOdometry(const Calibration& calibration, WeakDirections weak)
     : sigma_m_(std::max(kLeastMatchSigma_m, std::sqrt(2.0) * calibration.lidar_range_sigma_m)),
       map_sigma_m_(0.5 * calibration.lidar_range_sigma_m),
-      remapping_(remapping) {}
+      weak_(weak) {}
 
 void SweepOdometry::begin(const FeatureCloud& last_sweep, std::int64_t reference_ns) {
   revise(last_sweep);
@@ -242,7 +242,7 @@ SolveResult SweepOdometry::solve(std::int64_t now_ns, const PosePrior& reference
   const FeatureCloud used = within_budget(sweep_, effort);
   SweepSolve solve(SweepConstraints(edges_, planes_, clutter_, used, reference_from_body.mean,
                                     seconds_between(reference_ns_, now_ns), sigma_m_, map_sigma_m_),
-                   reference_from_body, sigma_m_, remapping_);
+                   reference_from_body, sigma_m_, weak_);
   const SolveResult afresh = solve.widely();
   if (!likely) return afresh;
   const SolveResult onwards = solve.from(*likely, 0.0);
@@ -254,7 +254,7 @@ SolveResult SweepOdometry::refine(std::int64_t now_ns, const PosePrior& referenc
   const FeatureCloud used = within_budget(sweep_, effort);
   SweepSolve solve(SweepConstraints(edges_, planes_, clutter_, used, reference_from_body.mean,
                                     seconds_between(reference_ns_, now_ns), sigma_m_, map_sigma_m_),
-                   reference_from_body, sigma_m_, remapping_);
+                   reference_from_body, sigma_m_, weak_);
   return solve.from(known, 0.0);
 }
 

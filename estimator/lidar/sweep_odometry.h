@@ -30,7 +30,7 @@ class SweepOdometry {
   /// is predicted: odometry has to start anew.
   static constexpr std::int64_t kLongestSilence_ns = 2'500'000'000;
 
-  SweepOdometry(const Calibration& calibration, bool remapping);
+  SweepOdometry(const Calibration& calibration, WeakDirections weak);
 
   /// Begins a sweep. @param last_sweep  features of the sweep before, in B at reference_ns, its middle
   void begin(const FeatureCloud& last_sweep, std::int64_t reference_ns);
@@ -62,7 +62,7 @@ class SweepOdometry {
  private:
   double sigma_m_;
   double map_sigma_m_;
-  bool remapping_;
+  WeakDirections weak_;
   bool begun_ = false;
   std::int64_t reference_ns_ = 0;
   PointTree edges_;

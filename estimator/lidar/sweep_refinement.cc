@@ -12,15 +12,15 @@ constexpr std::int64_t kTrackStep_ns = 10'000'000;
 
 }  // namespace
 
-SweepRefinement::SweepRefinement(const Calibration& calibration, bool remapping)
-    : calibration_(calibration), remapping_(remapping), odometry_(calibration, remapping) {}
+SweepRefinement::SweepRefinement(const Calibration& calibration, WeakDirections weak)
+    : calibration_(calibration), weak_(weak), odometry_(calibration, weak) {}
 
 std::optional<SweepRefinement::Sweep> SweepRefinement::add(const LidarScan& part, const PoseTrack& odometry_from_body,
                                                            const Matrix6d& covariance) {
   const std::int64_t now_ns = newest_return_ns(part);
   const bool silent = odometry_.begun() && now_ns - odometry_.reference_ns() > SweepOdometry::kLongestSilence_ns;
   if (silent || (odometry_.begun() && !odometry_from_body.covers(odometry_.reference_ns()))) {
-    odometry_ = SweepOdometry(calibration_, remapping_);
+    odometry_ = SweepOdometry(calibration_, weak_);
   }
   if (growing_ && *growing_ != part.sweep) odometry_.discard();  // its end never came
   growing_ = part.sweep;

@@ -16,7 +16,7 @@ namespace plumbline {
 /// and its error is taken to grow linearly over the sweep.
 class SweepRefinement {
  public:
-  SweepRefinement(const Calibration& calibration, bool remapping);
+  SweepRefinement(const Calibration& calibration, WeakDirections weak);
 
   /// A whole sweep without its distortion.
   struct Sweep {
@@ -43,7 +43,7 @@ class SweepRefinement {
   PoseTrack refined_over(const LidarScan& sweep, const PoseTrack& odometry_from_body) const;
 
   Calibration calibration_;
-  bool remapping_;
+  WeakDirections weak_;
   SweepAssembler assembler_;
   SweepOdometry odometry_;  ///< its reference is B in the middle of the sweep before
   std::optional<std::int64_t> growing_;

@@ -55,7 +55,7 @@ std::vector<FeaturePoint> found_on_itself(const std::vector<FeaturePoint>& plane
                                           const Calibration& calibration) {
   ScanMatcherConfig config = stack_matcher_config();
   config.max_iterations = 1;
-  ScanMatcher itself(calibration, config, true);
+  ScanMatcher itself(calibration, config);
   itself.insert({{}, stack.planes, {}}, Pose{}, /*path_m=*/0.0);
   itself.match({{}, planes, {}}, {Pose{}, 1e-12 * Matrix6d::Identity()});
   std::vector<FeaturePoint> found;
@@ -73,7 +73,7 @@ std::vector<FeaturePoint> found_on_itself(const std::vector<FeaturePoint>& plane
 MapLocalizer::MapLocalizer(const Calibration& calibration, const PriorMap& map, const Pose& map_from_start,
                            bool remapping)
     : calibration_(calibration),
-      matcher_(calibration, stack_matcher_config(), remapping),
+      matcher_(calibration, stack_matcher_config(), weak_directions(remapping)),
       occupancy_(map.surfaces),
       gate_(map_from_start, kLeastSupport) {
   matcher_.insert(map.surfaces, Pose{}, /*path_m=*/0.0);

@@ -61,7 +61,7 @@ ScanMatcher matcher_on(const PriorMap& map) {
   config.plane_budget = kMergePlaneBudget;
   config.edge_budget = kMergeEdgeBudget;
   config.max_iterations = 20;
-  ScanMatcher matcher(Calibration{}, config, /*remapping=*/true);
+  ScanMatcher matcher(Calibration{}, config);
   matcher.insert(map.surfaces, Pose{}, /*path_m=*/0.0);
   return matcher;
 }

@@ -30,6 +30,10 @@ FrameToFrameConfig vision_config(const DemoConfig& stages) {
   return config;
 }
 
+WeakDirections weak_directions(const EstimatorConfig& config, const DemoConfig& stages) {
+  return stages.constant_prior ? WeakDirections::kPulled : weak_directions(config.remapping);
+}
+
 MessageUse clocked_use(const Calibration& calibration, EstimatorConfig config) {
   config.imu_enabled = false;
   return message_use(calibration, config);
@@ -48,9 +52,9 @@ Demo::Demo(const Calibration& calibration, const EstimatorConfig& config, const 
       config_(config),
       stages_(stages),
       gate_(clocked_use(calibration, config)),
-      vision_(calibration, vision_config(stages), config.remapping),
-      sweeps_(calibration, config.remapping),
-      matcher_(calibration, ScanMatcherConfig{}, config.remapping) {
+      vision_(calibration, vision_config(stages), weak_directions(config, stages)),
+      sweeps_(calibration, weak_directions(config, stages)),
+      matcher_(calibration, ScanMatcherConfig{}, weak_directions(config, stages)) {
   stages_.scan_matching = stages.scan_matching && config.lidar_enabled;
   stages_.sweep_refinement = stages.sweep_refinement && config.lidar_enabled;
 }

@@ -23,6 +23,7 @@ struct DemoConfig {
   bool scan_matching = false;     ///< refine every scan against the map (thesis ch. 6); where no image shows the
                                   ///< motion, its velocity is then told by the scans
   bool sweep_refinement = false;  ///< before that, against the sweep before; whole sweeps are matched (thesis ch. 7)
+  bool constant_prior = false;    ///< in place of remapping, in all stages: the baseline of thesis ch. 7
 };
 
 /// DEMO: visual odometry with depth from lidar, depth images or stereo (thesis ch. 3). It needs no IMU; the samples

@@ -50,8 +50,8 @@ Loam::Loam(const Calibration& calibration, const EstimatorConfig& config, ImuUse
       remapping_(config.remapping),
       gate_(use_of(imu)),
       initializer_(calibration),
-      odometry_(calibration, config.remapping),
-      matcher_(calibration, scan_matcher_config(), config.remapping) {}
+      odometry_(calibration, weak_directions(config.remapping)),
+      matcher_(calibration, scan_matcher_config(), weak_directions(config.remapping)) {}
 
 void Loam::add(const ImuSample& received) {
   const std::optional<ImuSample> admitted = gate_.admit(received);
@@ -123,7 +123,7 @@ void Loam::handle(const LidarScan& received) {
   if (newest_ns_ != 0) part_s_ = std::max(0.0, seconds_between(newest_ns_, now_ns));
   newest_ns_ = now_ns;
   if (now_ns - odometry_.reference_ns() > SweepOdometry::kLongestSilence_ns)
-    odometry_ = SweepOdometry(calibration_, remapping_);
+    odometry_ = SweepOdometry(calibration_, weak_directions(remapping_));
   if (growing_ && *growing_ != part.sweep) odometry_.discard();  // its end never came
   growing_ = part.sweep;
   if (odometry_.begun() && now_ns > odometry_.reference_ns()) follow(part, now_ns);

@@ -65,6 +65,7 @@ const std::vector<EstimatorInfo>& estimator_library() {
       {"demo_no_ba", "the same without bundle adjustment"},
       {"demo_matched", "frame-to-frame visual odometry and scan matching, no IMU (DEMO + scan matching)"},
       {"demo_loam", "frame-to-frame visual odometry, refined sweep to sweep and sweep to map, no IMU (three stages)"},
+      {"demo_loam_prior", "the same with a constant prior in place of solution remapping"},
       {"vo_depth_only", "frame-to-frame visual odometry that uses only features with measured depth, no IMU"},
   };
   return library;
@@ -88,7 +89,8 @@ std::unique_ptr<Estimator> make_demo(const std::string& name, const Calibration&
   stages.bundle_adjustment = name == "demo";
   stages.map_depth_only = name == "vo_depth_only";
   stages.scan_matching = name == "demo_matched" || name == "vloam";
-  stages.sweep_refinement = name == "demo_loam";
+  stages.constant_prior = name == "demo_loam_prior";
+  stages.sweep_refinement = name == "demo_loam" || stages.constant_prior;
   return std::make_unique<Demo>(calibration, config, stages);
 }
 

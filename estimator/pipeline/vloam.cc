@@ -30,8 +30,8 @@ Vloam::Vloam(const Calibration& calibration, const EstimatorConfig& config, cons
       coupling_(coupling),
       gate_(message_use(calibration_, config)),
       initializer_(calibration_),
-      vision_(calibration_, vision, config.remapping),
-      matcher_(calibration_, matcher, config.remapping) {}
+      vision_(calibration_, vision, weak_directions(config.remapping)),
+      matcher_(calibration_, matcher, weak_directions(config.remapping)) {}
 
 void Vloam::add(const ImuSample& received) {
   const std::optional<ImuSample> sample = gate_.admit(received);

@@ -191,12 +191,27 @@ Vector6d remapped_step(const NormalEquations& data, const std::optional<PosePrio
   return -basis * reduced.ldlt().solve(moves.transpose() * all.gradient);
 }
 
+/// The prior that takes part in the solution.
+std::optional<PosePrior> effective_prior(const Pose& guess, const std::optional<PosePrior>& prior,
+                                         const SolverOptions& options) {
+  switch (options.weak) {
+    case WeakDirections::kGuessed:
+      return prior;
+    case WeakDirections::kForced:
+      return std::nullopt;
+    case WeakDirections::kPulled:
+      break;
+  }
+  if (!(options.degeneracy_threshold > 0.0)) return std::nullopt;
+  return PosePrior{prior ? prior->mean : guess, Matrix6d::Identity() / options.degeneracy_threshold};
+}
+
 /// One solve: what the data say at a pose, and the loop that moves it.
 class RobustSolve {
  public:
   RobustSolve(const Pose& guess, const std::optional<PosePrior>& prior, const Linearizer& linearize,
               const SolverOptions& options)
-      : guess_(guess), prior_(prior), linearize_(linearize), options_(options) {}
+      : guess_(guess), prior_(effective_prior(guess, prior, options)), linearize_(linearize), options_(options) {}
 
   SolveResult run() {
     result_.pose = guess_;
@@ -256,8 +271,9 @@ class RobustSolve {
   void analyse_data() {
     result_.spectrum = analyse(data_.information, options_.degeneracy_threshold);
     result_.weights_at_guess = result_.weights;
-    // Forced 6-DOF trusts all six directions as long as there is anything to solve them from.
-    if (!options_.remapping && data_.information.allFinite()) result_.spectrum.well_conditioned = 6;
+    // Without remapping all six directions are trusted as long as there is anything to solve them from.
+    if (options_.weak != WeakDirections::kGuessed && data_.information.allFinite())
+      result_.spectrum.well_conditioned = 6;
   }
 
   bool usable() const {
@@ -267,8 +283,7 @@ class RobustSolve {
 
   bool step() {
     if (result_.spectrum.well_conditioned == 0) return false;
-    const Vector6d step =
-        remapped_step(data_, options_.remapping ? prior_ : std::nullopt, result_.pose, correction_, result_.spectrum);
+    const Vector6d step = remapped_step(data_, prior_, result_.pose, correction_, result_.spectrum);
     if (!step.allFinite()) return false;
     correction_ += step;
     result_.pose = guess_.retract(correction_);
@@ -278,7 +293,7 @@ class RobustSolve {
   }
 
   const Pose& guess_;
-  const std::optional<PosePrior>& prior_;
+  std::optional<PosePrior> prior_;
   const Linearizer& linearize_;
   const SolverOptions& options_;
   SolveResult result_;

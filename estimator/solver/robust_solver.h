@@ -60,13 +60,13 @@ struct PosePrior {
 
 struct SolverOptions {
   int max_iterations = 10;
-  double rotation_tolerance = 1e-5;     ///< [rad]
-  double translation_tolerance = 1e-5;  ///< [m]
-  double degeneracy_threshold = 0.0;    ///< on the eigenvalues of the whitened J^T J
-  bool remapping = true;                ///< false: all six directions from the data, no projector and no prior rows
-  double scale_floor = 0.6745;          ///< least MAD of the whitened residuals; 0.6745 is that of unit noise
-  int min_features = 6;                 ///< fewer: nothing is well-conditioned
-  double min_inlier_share = 0.3;        ///< fewer: nothing is well-conditioned
+  double rotation_tolerance = 1e-5;                ///< [rad]
+  double translation_tolerance = 1e-5;             ///< [m]
+  double degeneracy_threshold = 0.0;               ///< on the eigenvalues of the whitened J^T J
+  WeakDirections weak = WeakDirections::kGuessed;  ///< otherwise no projector, and no prior of the caller's
+  double scale_floor = 0.6745;    ///< least MAD of the whitened residuals; 0.6745 is that of unit noise
+  int min_features = 6;           ///< fewer: nothing is well-conditioned
+  double min_inlier_share = 0.3;  ///< fewer: nothing is well-conditioned
 };
 
 /// What a solution says of the number that a group of features shares, see ResidualRows::share().
@@ -95,7 +95,7 @@ struct SolveResult {
 };
 
 /// Minimises the weighted rows (and the prior's) from a guess.
-/// With remapping on, each step moves only along the directions that the data determine at the first iteration; along
+/// With remapping, each step moves only along the directions that the data determine at the first iteration; along
 /// the others the guess stays exactly. Never throws on bad data: the result then has no well-conditioned direction.
 SolveResult solve(const Pose& guess, const std::optional<PosePrior>& prior, const Linearizer& linearize,
                   const SolverOptions& options);

@@ -45,8 +45,8 @@ bool measured(const Feature& f) {
 }  // namespace
 
 struct FrameToFrame::Impl {
-  Impl(const Calibration& calibration, const FrameToFrameConfig& settings, bool with_remapping)
-      : config(settings), remapping(with_remapping), set(calibration, feature_config(settings)) {}
+  Impl(const Calibration& calibration, const FrameToFrameConfig& settings, WeakDirections weak_directions)
+      : config(settings), weak(weak_directions), set(calibration, feature_config(settings)) {}
 
   template <typename Frame>
   Step process(const Frame& frame);
@@ -64,7 +64,7 @@ struct FrameToFrame::Impl {
   void refill();
 
   FrameToFrameConfig config;
-  bool remapping = true;
+  WeakDirections weak = WeakDirections::kGuessed;
   FeatureSet set;  ///< its reference is the last image that was not skipped
   std::map<std::int64_t, FirstSight> first_sights;
   std::int64_t refill_ns = 0;
@@ -80,8 +80,8 @@ struct FrameToFrame::Impl {
   Vector6d velocity = Vector6d::Zero();  ///< [rad/s; m/s] in B
 };
 
-FrameToFrame::FrameToFrame(const Calibration& calibration, const FrameToFrameConfig& config, bool remapping)
-    : impl_(std::make_unique<Impl>(calibration, config, remapping)) {}
+FrameToFrame::FrameToFrame(const Calibration& calibration, const FrameToFrameConfig& config, WeakDirections weak)
+    : impl_(std::make_unique<Impl>(calibration, config, weak)) {}
 FrameToFrame::FrameToFrame(FrameToFrame&&) noexcept = default;
 FrameToFrame& FrameToFrame::operator=(FrameToFrame&&) noexcept = default;
 FrameToFrame::~FrameToFrame() = default;
@@ -188,7 +188,7 @@ void FrameToFrame::Impl::choose_rows(const Pose& predicted) {
 SolveResult FrameToFrame::Impl::solve_motion(const Pose& predicted) const {
   SolverOptions options;
   options.degeneracy_threshold = config.degeneracy_threshold;
-  options.remapping = remapping;
+  options.weak = weak;
   options.min_features = config.min_features;
   options.min_inlier_share = config.min_inlier_share;
   return solve(

@@ -33,8 +33,8 @@ FeatureSetConfig feature_config(const VisionConfig& config) {
 }  // namespace
 
 struct VisualOdometry::Impl {
-  Impl(const Calibration& calibration, const VisionConfig& settings, bool with_remapping)
-      : config(settings), remapping(with_remapping), set(calibration, feature_config(settings)) {}
+  Impl(const Calibration& calibration, const VisionConfig& settings, WeakDirections weak_directions)
+      : config(settings), weak(weak_directions), set(calibration, feature_config(settings)) {}
 
   template <typename Frame>
   SolveResult process(const Frame& frame, const PosePrior& prior);
@@ -50,7 +50,7 @@ struct VisualOdometry::Impl {
   void carry_tracks_into_new_keyframe(const Pose& world_from_body, const Eigen::Quaterniond& turn_by_gyroscope);
 
   VisionConfig config;
-  bool remapping = true;
+  WeakDirections weak = WeakDirections::kGuessed;
 
   FeatureSet set;  ///< its reference is the key-frame
   bool has_image = false;
@@ -64,8 +64,8 @@ struct VisualOdometry::Impl {
   bool solved = false;
 };
 
-VisualOdometry::VisualOdometry(const Calibration& calibration, const VisionConfig& config, bool remapping)
-    : impl_(std::make_unique<Impl>(calibration, config, remapping)) {}
+VisualOdometry::VisualOdometry(const Calibration& calibration, const VisionConfig& config, WeakDirections weak)
+    : impl_(std::make_unique<Impl>(calibration, config, weak)) {}
 VisualOdometry::VisualOdometry(VisualOdometry&&) noexcept = default;
 VisualOdometry& VisualOdometry::operator=(VisualOdometry&&) noexcept = default;
 VisualOdometry::~VisualOdometry() = default;
@@ -181,7 +181,7 @@ void VisualOdometry::Impl::choose_rows(const PosePrior& prior) {
 SolveResult VisualOdometry::Impl::solve_motion(const PosePrior& prior) const {
   SolverOptions options;
   options.degeneracy_threshold = config.degeneracy_threshold;
-  options.remapping = remapping;
+  options.weak = weak;
   options.min_features = config.min_features;
   options.min_inlier_share = config.min_inlier_share;
   return solve(

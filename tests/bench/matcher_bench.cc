@@ -46,7 +46,7 @@ void BM_ScanToMap(benchmark::State& state) {
   const testing::BoxWorld world = testing::pillared_hall(40.0);
   Calibration calibration;
   calibration.lidar_range_sigma_m = kRangeSigma_m;
-  ScanMatcher matcher(calibration, {}, true);
+  ScanMatcher matcher(calibration, {});
   const auto map = std::make_shared<Cloud>();
   const auto pose_of = [](int scan) { return Pose{Eigen::Quaterniond::Identity(), {kStep_m * scan, 0.0, 0.0}}; };
   for (int i = 0; i < kMappedScans; ++i) {

@@ -35,8 +35,9 @@ FeatureCloud still_scan(const BoxWorld& world, const Pose& pose, RandomStream& n
 }
 
 /// A matcher that has mapped a world from true poses a little apart.
-ScanMatcher mapped(const BoxWorld& world, RandomStream& noise, bool remapping = true, int scans = 6) {
-  ScanMatcher matcher(calibration(), {}, remapping);
+ScanMatcher mapped(const BoxWorld& world, RandomStream& noise, WeakDirections weak = WeakDirections::kGuessed,
+                   int scans = 6) {
+  ScanMatcher matcher(calibration(), {}, weak);
   for (int k = 0; k < scans; ++k) matcher.insert(still_scan(world, at(0.1 * k), noise), at(0.1 * k), 0.1 * k);
   return matcher;
 }
@@ -51,7 +52,7 @@ Vector6d offset(double metres, double degrees) {
 
 TEST(ScanMatcher, WithAnEmptyMapNothingIsWellConditioned) {
   RandomStream noise(1, "lidar");
-  ScanMatcher matcher(calibration(), {}, true);
+  ScanMatcher matcher(calibration(), {});
   const SolveResult result = matcher.match(still_scan(testing::furnished_room(), at(0), noise), loose(at(0.3)));
   EXPECT_EQ(result.spectrum.well_conditioned, 0);
   EXPECT_EQ(at(0.3).local(result.pose).norm(), 0.0);
@@ -75,7 +76,7 @@ TEST(ScanMatcher, FindsBackFromTenCentimetresAndTwoDegrees) {
 TEST(ScanMatcher, OneScanIsMapEnoughForTheNext) {
   RandomStream noise(3, "lidar");
   const BoxWorld room = testing::furnished_room();
-  ScanMatcher matcher = mapped(room, noise, true, 1);
+  ScanMatcher matcher = mapped(room, noise, WeakDirections::kGuessed, 1);
   const SolveResult result = matcher.match(still_scan(room, at(0.1), noise), loose(at(0.0)));
   EXPECT_EQ(result.spectrum.well_conditioned, 6);
   EXPECT_LT(at(0.1).local(result.pose).tail<3>().norm(), 0.01);
@@ -137,7 +138,7 @@ TunnelWalk walk_tunnel(const std::vector<float>& bias_m, bool learning, RandomSt
   constexpr double kStep_m = 1.0;
   const BoxWorld tunnel = testing::smooth_tunnel();
   const Calibration c = calibration();
-  ScanMatcher matcher(c, {}, true);
+  ScanMatcher matcher(c, {});
   Pose estimate;
   for (int k = 0; k < kScans; ++k) {
     const FeatureCloud features = biased_scan(tunnel, at(kStep_m * k), bias_m, matcher.range_biases(), c, noise);
@@ -209,7 +210,7 @@ TEST(ScanMatcher, SaysHowFarBiasesOfItsRingsMayBendTheMap) {
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     RandomStream noise(seed, "lidar");
     const std::vector<float> bias_m = random_biases(noise);
-    ScanMatcher matcher(c, {}, true);
+    ScanMatcher matcher(c, {});
     Pose estimate{Eigen::Quaterniond::Identity(), {0.0, 0.0, 19.0}};
     double variance = 0.0;
     for (int k = 0; k < kScans; ++k) {
@@ -240,7 +241,7 @@ TEST(ScanMatcher, PassingTrunksDoesNotPullBackwards) {
   constexpr double kStep_m = 0.5;
   const BoxWorld avenue = testing::avenue(kScans * kStep_m);
   RandomStream noise(6, "lidar");
-  ScanMatcher matcher(calibration(), {}, true);
+  ScanMatcher matcher(calibration(), {});
   double sum_m = 0.0;
   int matched = 0;
   for (int k = 0; k < kScans; ++k) {
@@ -274,7 +275,7 @@ TEST(ScanMatcher, LeavesTellWhereOneStands) {
 TEST(ScanMatcher, ForcedSixDofSolvesEvenTheAxisOfATunnel) {
   RandomStream noise(6, "lidar");
   const BoxWorld tunnel = testing::smooth_tunnel();
-  ScanMatcher matcher = mapped(tunnel, noise, false);
+  ScanMatcher matcher = mapped(tunnel, noise, WeakDirections::kForced);
   const SolveResult result = matcher.match(still_scan(tunnel, at(0.6), noise), loose(at(0.55)));
   EXPECT_EQ(result.spectrum.well_conditioned, 6);
 }
@@ -311,7 +312,7 @@ TEST(ScanMatcher, TheThresholdSeparatesTunnelsFromCorridorsWithFrames) {
 TEST(ScanMatcher, NothingOlderThanTheMemoryIsMatched) {
   RandomStream noise(8, "lidar");
   const BoxWorld room = testing::furnished_room();
-  ScanMatcher matcher(calibration(), {}, true);
+  ScanMatcher matcher(calibration(), {});
   const FeatureCloud scan = still_scan(room, at(0.0), noise);
   matcher.insert(scan, at(0.0), 0.0);
   const std::size_t points = matcher.map().size();
@@ -332,9 +333,9 @@ TEST(ScanMatcher, RecordsTheMapWhereTheEstimateIs) {
     for (const MapPoint& point : matcher.map()) z = std::min(z, point.position.z());
     return z;
   };
-  ScanMatcher straight(calibration(), {}, true);
+  ScanMatcher straight(calibration(), {});
   straight.insert(scan, at(0.0), 0.0);
-  ScanMatcher bent(calibration(), {}, true);
+  ScanMatcher bent(calibration(), {});
   Pose in_map = at(0.0);
   in_map.translation.z() += 4.0;
   bent.insert(scan, in_map, 0.0, at(0.0));
@@ -364,7 +365,7 @@ TEST(ScanMatcher, ScanToMapOdometryDriftsLittleOverFiftyMetres) {
   const Calibration c = calibration();
   constexpr std::int64_t kPeriod_ns = 100'000'000;
   RandomStream noise(10, "lidar");
-  ScanMatcher matcher(c, {}, true);
+  ScanMatcher matcher(c, {});
   Pose before = motion(0.0);
   Pose now = motion(0.1);  // the first scan's end; its motion is given
   Pose guess = now;

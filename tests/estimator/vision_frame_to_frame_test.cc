@@ -170,7 +170,7 @@ TEST(FrameToFrame, GoesOnAtConstantVelocityThroughFramesWithFewFeaturesAndRecove
 }
 
 TEST(FrameToFrame, AFrameThatCannotBeUsedChangesNothing) {
-  FrameToFrame odometry(stereo_calibration(), {}, true);
+  FrameToFrame odometry(stereo_calibration(), {});
   EXPECT_TRUE(odometry.process(CameraFrame{}).skipped);
   EXPECT_TRUE(odometry.process(CameraFrame{0, 0, 640, 360, {}}).skipped);
   EXPECT_FALSE(odometry.started());

@@ -219,7 +219,7 @@ TEST(VisualOdometry, RestWithoutAnyDepthClaimsNoTranslationAndStaysPut) {
 }
 
 TEST(VisualOdometry, AnOddFrameIsAnOrdinaryResultWithNothingSolved) {
-  VisualOdometry odometry(testing::vision_calibration(), VisionConfig{}, true);
+  VisualOdometry odometry(testing::vision_calibration(), VisionConfig{});
   const PosePrior prior{{Eigen::Quaterniond::Identity(), Vector3d(1, 2, 3)}, prior_covariance()};
   CameraFrame short_of_pixels{0, 0, 640, 360, {}};
   CameraFrame wrong_size{0, 0, 320, 180, std::vector<std::uint8_t>(320 * 180, 100)};
