@@ -51,7 +51,7 @@ LocalizedEstimator::LocalizedEstimator(std::unique_ptr<Estimator> odometry, cons
       stack_(period_ns_),
       localizer_(make_localizer(calibration, map, config)),
       correction_(config.map_from_start, std::min(kLongestBlend_s, 1.0 / config.rate_hz)),
-      seen_(calibration, {}, true) {
+      seen_(calibration, {}) {
   if (!calibration.has_lidar) throw std::invalid_argument("localization: there is no lidar to match the map with");
 }
 

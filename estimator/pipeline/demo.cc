@@ -31,7 +31,7 @@ FrameToFrameConfig vision_config(const DemoConfig& stages) {
 }
 
 WeakDirections weak_directions(const EstimatorConfig& config, const DemoConfig& stages) {
-  return stages.constant_prior ? WeakDirections::kPulled : weak_directions(config.remapping);
+  return stages.constant_prior ? WeakDirections::kPulled : plumbline::weak_directions(config.remapping);
 }
 
 MessageUse clocked_use(const Calibration& calibration, EstimatorConfig config) {
