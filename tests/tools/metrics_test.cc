@@ -166,30 +166,65 @@ TEST(MapError, IsMeasuredInDriftsAlignment) {
   EXPECT_FALSE(map_error({}, {}, [](const Eigen::Vector3d&) { return 0.0; }).rmse_m);
 }
 
-TEST(Nees, IsOneForErrorsAsLargeAsClaimed) {
-  RandomStream noise(3, "nees");
-  const double sigma = 1e-3;
+struct NoisyWalk {
   std::vector<Odometry> odometry;
   StampedPoses truth;
+};
+
+/// A thousand seconds of outputs that claim an error of 1e-3 each and have one of `sigmas`.
+NoisyWalk noisy_walk(const Vector6d& sigmas, const Eigen::Vector3d& turn) {
+  RandomStream noise(3, "nees");
+  const double claimed = 1e-3;
+  NoisyWalk walk;
   Pose true_pose;
   Pose estimated_pose;
   for (std::int64_t i = 0; i <= 200'000; ++i) {
     if (i > 0) {
-      const Pose motion{exp_so3({0.001, 0.002, 0.01}), {0.01, 0.0, 0.001}};
+      const Pose motion{exp_so3(turn), {0.01, 0.0, 0.001}};
       Vector6d error;
-      for (int k = 0; k < 6; ++k) error[k] = sigma * noise.gaussian();
+      for (int k = 0; k < 6; ++k) error[k] = sigmas[k] * noise.gaussian();
       true_pose = true_pose * motion;
       estimated_pose = estimated_pose * motion.retract(error);
     }
-    truth.push_back({i * 5'000'000, true_pose});
+    walk.truth.push_back({i * 5'000'000, true_pose});
     Odometry output;
     output.stamp_ns = i * 5'000'000;
     output.world_from_body = estimated_pose;
-    output.increment_covariance = sigma * sigma * Matrix6d::Identity();
-    odometry.push_back(output);
+    output.increment_covariance = claimed * claimed * Matrix6d::Identity();
+    walk.odometry.push_back(output);
   }
+  return walk;
+}
+
+TEST(Nees, IsOneForErrorsAsLargeAsClaimed) {
+  const NoisyWalk walk = noisy_walk(1e-3 * Vector6d::Ones(), {0.001, 0.002, 0.01});
   // 1000 increments of 6 degrees of freedom: standard deviation sqrt(2 / 6000) = 0.018.
-  EXPECT_NEAR(nees_mean(odometry, truth).value(), 1.0, 0.08);
+  EXPECT_NEAR(nees_mean(increment_errors(walk.odometry, walk.truth)).value(), 1.0, 0.08);
+}
+
+TEST(Nees, AlongDegenerateDirectionsSeesNothingOfTheOthers) {
+  Vector6d sigmas = 1e-3 * Vector6d::Ones();
+  sigmas[3] = 2e-3;
+  const NoisyWalk walk = noisy_walk(sigmas, Eigen::Vector3d::Zero());
+  std::vector<ModuleHealth> health;
+  for (std::int64_t second = 1; second <= 1000; ++second) {
+    ModuleHealth report;
+    report.stamp_ns = second * 1'000'000'000 - 100'000'000;
+    report.module = Module::kLidar;
+    report.well_conditioned = second % 2 == 0 ? 5 : 6;
+    report.eigenvectors.col(0).swap(report.eigenvectors.col(3));  // the weakest: along x
+    health.push_back(report);
+    report.module = Module::kVision;
+    report.well_conditioned = 3;
+    health.push_back(report);
+  }
+  const std::vector<IncrementError> increments = increment_errors(walk.odometry, walk.truth);
+  // Twice the error claimed; 500 increments of one direction: standard deviation 4 sqrt(2 / 500) = 0.25.
+  EXPECT_NEAR(nees_degenerate(increments, health, Module::kLidar).value(), 4.0, 1.0);
+  EXPECT_FALSE(nees_degenerate(increments, health, Module::kImu));
+  // A report of long ago says nothing of now.
+  health.resize(2);
+  EXPECT_FALSE(nees_degenerate(increments, health, Module::kLidar));
 }
 
 TEST(Nees, IsNullWithoutCovariances) {
@@ -199,8 +234,8 @@ TEST(Nees, IsNullWithoutCovariances) {
     odometry[i].stamp_ns = static_cast<std::int64_t>(i) * 5'000'000;
     truth.push_back({odometry[i].stamp_ns, Pose{}});
   }
-  EXPECT_FALSE(nees_mean(odometry, truth));
-  EXPECT_FALSE(nees_mean({}, {}));
+  EXPECT_FALSE(nees_mean(increment_errors(odometry, truth)));
+  EXPECT_FALSE(nees_mean(increment_errors({}, {})));
 }
 
 TEST(ModuleFigures, CountsCallsAndDirections) {

@@ -53,7 +53,7 @@ void expect_design_keys(const nlohmann::json& result) {
     }
   }
   for (const char* module : {"imu", "vision", "lidar"}) {
-    for (const char* key : {"calls", "mean_ms", "p50_ms", "p95_ms", "max_ms", "degenerate_share"}) {
+    for (const char* key : {"calls", "mean_ms", "p50_ms", "p95_ms", "max_ms", "degenerate_share", "nees_degenerate"}) {
       EXPECT_TRUE(result.at("modules").at(module).contains(key)) << module << "." << key;
     }
     EXPECT_EQ(result.at("modules").at(module).at("dof_histogram").size(), 7U);

@@ -89,6 +89,7 @@ void append_module(std::vector<Figure>& list, const std::string& key, const Modu
   list.push_back({prefix + "p95_ms", finite(module.p95_ms)});
   list.push_back({prefix + "max_ms", finite(module.max_ms)});
   list.push_back({prefix + "degenerate_share", finite(module.degenerate_share)});
+  list.push_back({prefix + "nees_degenerate", finite(module.nees_degenerate)});
 }
 
 void append_messages(std::vector<Figure>& list, const std::string& key, const MessageTally& tally) {
@@ -144,12 +145,14 @@ RunFigures run_figures(const RunRecord& record,
   figures.simulated_s = figures.trajectory.has_truth ? figures.trajectory.duration_s : duration_s(record.estimate);
   figures.map = map_error(record.map, figures.trajectory.drift_alignment.truth_from_estimate, distance_to_surface);
   figures.map_points = record.map.size();
-  figures.nees_mean = nees_mean(record.odometry, record.ground_truth);
+  const std::vector<IncrementError> increments = increment_errors(record.odometry, record.ground_truth);
+  figures.nees_mean = nees_mean(increments);
   if (record.estimator_wall_s > 0.0) {
     figures.estimator_real_time_factor = figures.simulated_s / record.estimator_wall_s;
   }
   for (const Module module : kModules) {
     figures.modules[module] = module_figures(record, module);
+    figures.modules[module].nees_degenerate = nees_degenerate(increments, record.health, module);
     const auto tally = record.messages.find(module);
     figures.messages[module] = tally == record.messages.end() ? MessageTally{} : tally->second;
   }

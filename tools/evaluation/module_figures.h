@@ -16,6 +16,7 @@ struct ModuleFigures {
   std::optional<double> p95_ms;
   std::optional<double> max_ms;
   std::optional<double> degenerate_share;       ///< of its solves; nothing for a module without any
+  std::optional<double> nees_degenerate;        ///< see nees_degenerate()
   std::array<std::int64_t, 7> dof_histogram{};  ///< solves with 0 … 6 well-conditioned directions
 };
 

@@ -26,6 +26,7 @@ std::string module_row(Module module, const ModuleFigures& figures) {
   std::string text = std::to_string(figures.calls) + " calls, mean " + with_unit(figures.mean_ms, " ms") + ", p95 " +
                      with_unit(figures.p95_ms, " ms");
   if (figures.degenerate_share) text += ", degenerate " + readable_text(100.0 * *figures.degenerate_share) + " %";
+  if (figures.nees_degenerate) text += ", NEES there " + readable_text(*figures.nees_degenerate);
   return row(std::string(to_string(module)), text);
 }
 
