@@ -1,6 +1,8 @@
 #include "scenarios/camera_on_rig.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 
 #include "scenarios/sensor_message.h"
@@ -8,6 +10,8 @@
 
 namespace plumbline {
 namespace {
+
+constexpr int kUnseenPictures = 2;
 
 std::int64_t to_ns(double seconds) { return std::llround(seconds * 1e9); }
 
@@ -29,12 +33,29 @@ CameraOnRig::CameraOnRig(const FilmSet& set, const Pose& pack_from_camera, Camer
 RawImage CameraOnRig::take(std::int64_t stamp_ns, std::int64_t frame_index) {
   const Shutter shutter = camera_.shutter();
   const int pictures = pictures_for(stamp_ns, shutter);
-  camera_.begin(pictures);
-  for (int i = 0; i < pictures; ++i) {
-    const std::int64_t time_ns = stamp_ns + to_ns(sub_frame_offset_s(shutter, i, pictures));
-    camera_.add(draw(set_, renderer_, pack_from_camera_, time_ns));
-  }
+  const bool few = was_unseen_ && pictures > kUnseenPictures && !light_changes(stamp_ns, shutter);
+  was_unseen_ = add_pictures(stamp_ns, shutter, few ? kUnseenPictures : pictures);
+  if (few && !was_unseen_) add_pictures(stamp_ns, shutter, pictures);
   return camera_.read_out(frame_index);
+}
+
+bool CameraOnRig::add_pictures(std::int64_t stamp_ns, const Shutter& shutter, int count) {
+  camera_.begin(count);
+  bool unseen = true;
+  for (int i = 0; i < count; ++i) {
+    const std::int64_t time_ns = stamp_ns + to_ns(sub_frame_offset_s(shutter, i, count));
+    const RadianceImage& picture = draw(set_, renderer_, pack_from_camera_, time_ns);
+    unseen = unseen && camera_.is_unseen(picture);
+    camera_.add(picture);
+  }
+  return unseen;
+}
+
+bool CameraOnRig::light_changes(std::int64_t stamp_ns, const Shutter& shutter) const {
+  const std::int64_t half_ns = to_ns(0.5 * shutter.span_s());
+  const auto& steps = set_.scenario.world.light_schedule;
+  return std::any_of(steps.begin(), steps.end(),
+                     [&](const LightStep& step) { return std::abs(to_ns(step.start_s) - stamp_ns) <= half_ns; });
 }
 
 int CameraOnRig::pictures_for(std::int64_t stamp_ns, const Shutter& shutter) const {

@@ -22,6 +22,7 @@ struct FilmSet {
 const RadianceImage& draw(const FilmSet& set, Renderer& renderer, const Pose& pack_from_camera, std::int64_t stamp_ns);
 
 /// A camera that moves while it is exposed: as many pictures as the motion asks for, each from where the camera is.
+/// Where it is so dark that no blur would show, two do.
 class CameraOnRig {
  public:
   /// @param renderer  of the camera's view (Camera::view), perhaps shared; must outlive this
@@ -32,11 +33,15 @@ class CameraOnRig {
 
  private:
   int pictures_for(std::int64_t stamp_ns, const Shutter& shutter) const;
+  /// Adds so many pictures; whether none of them shows anything.
+  bool add_pictures(std::int64_t stamp_ns, const Shutter& shutter, int count);
+  bool light_changes(std::int64_t stamp_ns, const Shutter& shutter) const;
 
   FilmSet set_;
   Pose pack_from_camera_;
   Camera camera_;
   Renderer& renderer_;
+  bool was_unseen_ = false;  ///< the frame before
 };
 
 }  // namespace plumbline

@@ -8,6 +8,12 @@
 
 namespace plumbline {
 
+namespace {
+
+constexpr double kUnseenShare = 0.01;  // of the read noise
+
+}  // namespace
+
 // electrons_per_lux_second: at 555 nm one lux is 1/683 W/m^2 = 4.09e15 photons/(s m^2); a pixel of (6 um)^2 with a
 // quantum efficiency of 0.5 makes 4.09e15 * 36e-12 * 0.5 = 7.36e4 electrons/(lux s) of them. The data sheet of the
 // MT9V034 (4.8 V/(lux s)), at the 110 uV per electron estimated elsewhere, would give 4.4e4.
@@ -30,7 +36,7 @@ void Camera::begin(int pictures) {
 }
 
 void Camera::add(const RadianceImage& picture) {
-  const std::vector<float>& values = model_.colour ? picture.rgb : picture.luminance;
+  const std::vector<float>& values = light_of(picture);
   const int channels = model_.colour ? 3 : 1;
   const RenderView& view = lens_.view();
   const auto pixels = static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height);
@@ -47,10 +53,22 @@ void Camera::add(const RadianceImage& picture) {
   ++taken_;
 }
 
+double Camera::electrons_per_lux() const {
+  return model_.chip.electrons_per_lux_second * auto_exposure_.next().exposure_s;
+}
+
+bool Camera::is_unseen(const RadianceImage& picture) const {
+  if (!effects_.read_noise) return false;
+  const std::vector<float>& values = light_of(picture);
+  const std::vector<float>& lux_per_luminance = lens_.lux_per_luminance();
+  const double brightest = values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
+  const double most_lux = brightest * *std::max_element(lux_per_luminance.begin(), lux_per_luminance.end());
+  return most_lux * electrons_per_lux() < kUnseenShare * model_.chip.read_noise_electrons;
+}
+
 RawImage Camera::read_out(std::int64_t frame_index) {
   const std::vector<float>& lux_per_luminance = lens_.lux_per_luminance();
-  const auto electrons_per_lux =
-      static_cast<float>(model_.chip.electrons_per_lux_second * auto_exposure_.next().exposure_s);
+  const auto electrons_per_lux = static_cast<float>(this->electrons_per_lux());
   const std::size_t channels = light_.size() / lux_per_luminance.size();
   for (std::size_t i = 0; i < lux_per_luminance.size(); ++i) {
     const float electrons_per_luminance = lux_per_luminance[i] * electrons_per_lux;

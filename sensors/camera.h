@@ -34,12 +34,21 @@ class Camera {
   /// so far.
   RawImage read_out(std::int64_t frame_index);
 
+  /// Whether a frame of nothing but this picture's light would be lost in the read noise: no pixel would get a
+  /// hundredth of its sigma, of which even 20 x 20 pixels together show a fifth of a sigma only.
+  bool is_unseen(const RadianceImage& picture) const;
+
   /// A frame of one picture.
   RawImage expose(const RadianceImage& picture, std::int64_t frame_index);
 
   const CameraModel& model() const { return model_; }
 
  private:
+  const std::vector<float>& light_of(const RadianceImage& picture) const {
+    return model_.colour ? picture.rgb : picture.luminance;
+  }
+  double electrons_per_lux() const;
+
   CameraModel model_;
   CameraEffects effects_;
   std::uint64_t seed_ = 0;

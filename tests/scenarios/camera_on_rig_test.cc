@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "scenarios/calibration.h"
@@ -41,6 +42,24 @@ TEST(CameraOnRig, ARollingShutterLeansTheEdgeAsFarAsTheImageMovesMeanwhile) {
     const double lean_px = edge_in_row(leaning, row).column - edge_in_row(upright, row).column;
     EXPECT_NEAR(lean_px, px_per_s * lag_s, 0.6) << row;  // a picture a pixel
   }
+}
+
+double mean_of(const CameraFrame& frame) {
+  return std::accumulate(frame.pixels.begin(), frame.pixels.end(), 0.0) / static_cast<double>(frame.pixels.size());
+}
+
+// In the dark few pictures do, until there is light again: at once, if it comes on while the shutter is open.
+TEST(CameraOnRig, LightThatComesOnDuringAnExposureIsInItsFrame) {
+  Scenario scenario = edge_scenario(exposed_for(6e-3));
+  scenario.rig.camera.effects.read_noise = true;
+  const CameraFrame lit = middle_frame(scenario, 4.0);
+  const double on_s = 1e-9 * static_cast<double>(lit.stamp_ns) + 1e-3;
+  scenario.world.light_schedule = {{0.0, 1e-9}, {on_s, 1.0}};
+  const CameraFrame partly_lit = middle_frame(scenario, 4.0);
+  scenario.world.light_schedule = {{0.0, 1e-9}};
+  const double dark = mean_of(middle_frame(scenario, 4.0));
+  // A third of the exposure is lit, give or take half of one of its six pictures.
+  EXPECT_NEAR((mean_of(partly_lit) - dark) / (mean_of(lit) - dark), 1.0 / 3.0, 0.1);
 }
 
 TEST(CameraOnRig, TheSameSeedGivesTheSameBytes) {

@@ -96,6 +96,23 @@ TEST(Camera, DarknessIsAmplifiedReadNoise) {
   EXPECT_NEAR(grey.variance, sigma * sigma + 0.0625 / 12.0, 0.02 * sigma * sigma);
 }
 
+TEST(Camera, LightIsUnseenThatAddsLessThanAHundredthOfTheReadNoise) {
+  const CameraModel model = fixed_exposure();
+  Camera camera(model, even_light(), 3);
+  const double lux = Lens(model, even_light()).lux_per_luminance().front();  // of 1 cd/m^2
+  const double electrons = lux * model.chip.electrons_per_lux_second * camera.settings().exposure_s;
+  const double limit = 0.01 * model.chip.read_noise_electrons / electrons;
+  RadianceImage picture = even_image(camera.view(), 0.0);
+  EXPECT_TRUE(camera.is_unseen(picture));
+  picture.luminance[1234] = static_cast<float>(0.9 * limit);
+  EXPECT_TRUE(camera.is_unseen(picture));
+  picture.luminance[1234] = static_cast<float>(1.1 * limit);  // a single pixel is enough
+  EXPECT_FALSE(camera.is_unseen(picture));
+  CameraEffects noiseless = even_light();
+  noiseless.read_noise = false;
+  EXPECT_FALSE(Camera(model, noiseless, 3).is_unseen(even_image(camera.view(), 0.0)));
+}
+
 TEST(Camera, DarkCurrentAddsElectronsAndTheirNoise) {
   CameraModel model = fixed_exposure();
   model.chip.dark_current_electrons_per_s = 5e5;  // 1000 electrons in 2 ms
