@@ -10,7 +10,7 @@ namespace plumbline {
 
 namespace {
 
-constexpr double kUnseenShare = 0.01;  // of the read noise
+constexpr double kUnseenShare = 0.02;  // of the read noise
 
 }  // namespace
 

@@ -35,7 +35,7 @@ class Camera {
   RawImage read_out(std::int64_t frame_index);
 
   /// Whether a frame of nothing but this picture's light would be lost in the read noise: no pixel would get a
-  /// hundredth of its sigma, of which even 20 x 20 pixels together show a fifth of a sigma only.
+  /// fiftieth of its sigma, of which even 20 x 20 pixels together show less than half a sigma.
   bool is_unseen(const RadianceImage& picture) const;
 
   /// A frame of one picture.
