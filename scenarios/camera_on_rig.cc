@@ -11,8 +11,6 @@
 namespace plumbline {
 namespace {
 
-constexpr int kUnseenPictures = 2;
-
 std::int64_t to_ns(double seconds) { return std::llround(seconds * 1e9); }
 
 }  // namespace
@@ -33,9 +31,9 @@ CameraOnRig::CameraOnRig(const FilmSet& set, const Pose& pack_from_camera, Camer
 RawImage CameraOnRig::take(std::int64_t stamp_ns, std::int64_t frame_index) {
   const Shutter shutter = camera_.shutter();
   const int pictures = pictures_for(stamp_ns, shutter);
-  const bool few = was_unseen_ && pictures > kUnseenPictures && !light_changes(stamp_ns, shutter);
-  was_unseen_ = add_pictures(stamp_ns, shutter, few ? kUnseenPictures : pictures);
-  if (few && !was_unseen_) add_pictures(stamp_ns, shutter, pictures);
+  const bool one = was_unseen_ && pictures > 1 && !light_changes(stamp_ns, shutter);
+  was_unseen_ = add_pictures(stamp_ns, shutter, one ? 1 : pictures);
+  if (one && !was_unseen_) add_pictures(stamp_ns, shutter, pictures);
   return camera_.read_out(frame_index);
 }
 

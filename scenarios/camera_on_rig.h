@@ -22,7 +22,7 @@ struct FilmSet {
 const RadianceImage& draw(const FilmSet& set, Renderer& renderer, const Pose& pack_from_camera, std::int64_t stamp_ns);
 
 /// A camera that moves while it is exposed: as many pictures as the motion asks for, each from where the camera is.
-/// Where it is so dark that no blur would show, two do.
+/// Where it is so dark that no blur would show, one does.
 class CameraOnRig {
  public:
   /// @param renderer  of the camera's view (Camera::view), perhaps shared; must outlive this

@@ -48,7 +48,7 @@ double mean_of(const CameraFrame& frame) {
   return std::accumulate(frame.pixels.begin(), frame.pixels.end(), 0.0) / static_cast<double>(frame.pixels.size());
 }
 
-// In the dark few pictures do, until there is light again: at once, if it comes on while the shutter is open.
+// In the dark one picture does, until there is light again: at once, if it comes on while the shutter is open.
 TEST(CameraOnRig, LightThatComesOnDuringAnExposureIsInItsFrame) {
   Scenario scenario = edge_scenario(exposed_for(6e-3));
   scenario.rig.camera.effects.read_noise = true;
