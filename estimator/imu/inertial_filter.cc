@@ -132,6 +132,8 @@ void InertialFilter::predict(const InertialSegment& segment) {
   add_noise(kGyroBias, noise_.gyro_random_walk);
   add_noise(kAccelBias, noise_.accel_random_walk);
   symmetrize();
+  const Matrix6d carry = adjoint(before_from_now.inverse());
+  past_revision_ = (carry * past_revision_ * carry.transpose()).eval();
   map_from_body_ = map_from_body_ * before_from_now;
   keyframe_from_body_ = keyframe_from_body_ * before_from_now;
   state_ = next;
@@ -181,6 +183,9 @@ void InertialFilter::update(const SolveResult& solved, const Pose& predicted, in
   const Eigen::MatrixXd gain = expected.solve(covariance_ht.transpose()).transpose();
   const ErrorState correction = gain * innovation;
   if (!correction.allFinite()) return;
+  // Where the past pose lies in the world is world_from_body times the inverse of past_from_body.
+  const Eigen::MatrixXd of_past = gain.middleRows<6>(kWorld) - gain.middleRows<6>(kPast);
+  past_revision_ += of_past * (foreseen + noise) * of_past.transpose();
   // Joseph's form keeps the covariance symmetric and positive.
   Covariance kept = Covariance::Identity();
   kept.middleCols<6>(pose) -= gain * directions.transpose();
@@ -209,7 +214,10 @@ void InertialFilter::set_keyframe(const Pose& world_from_keyframe) {
   start_frame(kKeyframe);
 }
 
-void InertialFilter::set_past() { start_frame(kPast); }
+void InertialFilter::set_past() {
+  start_frame(kPast);
+  past_revision_.setZero();
+}
 
 void InertialFilter::start_frame(int pose) {
   covariance_.middleRows<6>(pose).setZero();

@@ -15,7 +15,7 @@ void IncrementWatch::update(InertialFilter& filter, const PoseTrack& world_from_
   // Seen from the middle of the window: composing shares from its two ends would count the lever arms twice.
   const std::int64_t middle_ns = past_ns_ + (stamp_ns - past_ns_) / 2;
   const Matrix6d carry = adjoint(world_from_body.at(middle_ns).inverse() * filter.state().world_from_body);
-  per_s_ = carry * filter.past_motion_covariance() * carry.transpose() / seconds_between(past_ns_, stamp_ns);
+  per_s_ = carry * filter.increment_covariance() * carry.transpose() / seconds_between(past_ns_, stamp_ns);
   if (!full) return;
   complete_ = true;
   filter.set_past();
