@@ -132,8 +132,7 @@ void InertialFilter::predict(const InertialSegment& segment) {
   add_noise(kGyroBias, noise_.gyro_random_walk);
   add_noise(kAccelBias, noise_.accel_random_walk);
   symmetrize();
-  const Matrix6d carry = adjoint(before_from_now.inverse());
-  past_revision_ = (carry * past_revision_ * carry.transpose()).eval();
+  map_revision_ = (std::exp(-h / kRevisionMemory_s) * (adjoint(before_from_now.inverse()) * map_revision_)).eval();
   map_from_body_ = map_from_body_ * before_from_now;
   keyframe_from_body_ = keyframe_from_body_ * before_from_now;
   state_ = next;
@@ -183,9 +182,6 @@ void InertialFilter::update(const SolveResult& solved, const Pose& predicted, in
   const Eigen::MatrixXd gain = expected.solve(covariance_ht.transpose()).transpose();
   const ErrorState correction = gain * innovation;
   if (!correction.allFinite()) return;
-  // Where the past pose lies in the world is world_from_body times the inverse of past_from_body.
-  const Eigen::MatrixXd of_past = gain.middleRows<6>(kWorld) - gain.middleRows<6>(kPast);
-  past_revision_ += of_past * (foreseen + noise) * of_past.transpose();
   // Joseph's form keeps the covariance symmetric and positive.
   Covariance kept = Covariance::Identity();
   kept.middleCols<6>(pose) -= gain * directions.transpose();
@@ -197,6 +193,8 @@ void InertialFilter::update(const SolveResult& solved, const Pose& predicted, in
 void InertialFilter::symmetrize() { covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval(); }
 
 void InertialFilter::apply(const ErrorState& correction) {
+  // Where the map around the body lies in the world is world_from_body times the inverse of map_from_body.
+  map_revision_ += correction.segment<6>(kWorld) - correction.segment<6>(kMap);
   const Eigen::Quaterniond body_from_world = state_.world_from_body.rotation.conjugate();
   const Eigen::Vector3d velocity = body_from_world * state_.velocity_in_world + correction.segment<3>(kVelocity);
   const Eigen::Vector3d gravity = body_from_world * state_.gravity_in_world + correction.segment<3>(kGravity);
@@ -214,10 +212,7 @@ void InertialFilter::set_keyframe(const Pose& world_from_keyframe) {
   start_frame(kKeyframe);
 }
 
-void InertialFilter::set_past() {
-  start_frame(kPast);
-  past_revision_.setZero();
-}
+void InertialFilter::set_past() { start_frame(kPast); }
 
 void InertialFilter::start_frame(int pose) {
   covariance_.middleRows<6>(pose).setZero();

@@ -71,10 +71,13 @@ class InertialFilter {
   Matrix6d map_from_body_covariance() const { return covariance_of(kMap); }
   /// Of keyframe_from_body, right perturbation.
   Matrix6d keyframe_motion_covariance() const { return covariance_of(kKeyframe); }
-  /// Of the increment from the past pose, as the world had it then, to the present one, right perturbation of that:
-  /// how past_from_body errs, and how far the past pose lies from where it was thought to lie then. Bias and tilt that
-  /// a turn brings to light have bent the way for long, and all of that is put right at once.
-  Matrix6d increment_covariance() const { return covariance_of(kPast) + past_revision_; }
+  /// Of past_from_body, right perturbation.
+  Matrix6d past_motion_covariance() const { return covariance_of(kPast); }
+  /// By which corrections have lately moved map and body together in the world, right perturbation of world_from_body;
+  /// what lies back longer than kRevisionMemory_s fades. Bias and tilt that a turn brings to light have bent the way
+  /// for long, and all of that is put right at once.
+  const Vector6d& map_revision() const { return map_revision_; }
+  static constexpr double kRevisionMemory_s = 1.0;
 
  private:
   Matrix6d covariance_of(int pose) const { return covariance_.block<6, 6>(pose, pose); }
@@ -92,9 +95,7 @@ class InertialFilter {
   ImuNoise noise_;
   bool remapping_ = true;
   Covariance covariance_ = Covariance::Zero();
-  /// Of what corrections have moved the past pose by in the world since it was passed, right perturbation of
-  /// world_from_body.
-  Matrix6d past_revision_ = Matrix6d::Zero();
+  Vector6d map_revision_ = Vector6d::Zero();
 };
 
 }  // namespace plumbline
