@@ -26,7 +26,7 @@ std::int64_t stamp_of(int frame) { return 1'000'000'000 + std::llround(1e9 * kFr
 class Walk {
  public:
   Walk(const FrameToFrameConfig& config, double depth_range_m, std::uint64_t seed = 1)
-      : odometry(calibration, config, true),
+      : odometry(calibration, config),
         depth_range_m_(depth_range_m),
         points_(hall_points(12.0, seed)),
         random_(seed, "pixels") {}
@@ -92,7 +92,7 @@ class PlainWalk {
 
   static constexpr double kStep_m = 0.5 / 60.0;
   Calibration calibration = stereo_calibration();
-  FrameToFrame odometry{calibration, {}, true};
+  FrameToFrame odometry{calibration, {}};
 
  private:
   std::vector<Eigen::Vector3d> points_;

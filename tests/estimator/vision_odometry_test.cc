@@ -56,7 +56,7 @@ class Drive {
   explicit Drive(Path path, const VisionConfig& config = {}, const LensDistortion& lens = {})
       : world_from_body(path),
         calibration(calibration_with(lens)),
-        odometry(calibration, config, true),
+        odometry(calibration, config),
         estimate(path(0.0)) {}
 
   static Calibration calibration_with(const LensDistortion& lens) {
