@@ -55,7 +55,8 @@ struct MatchDrift {
 /// planes and clutter to points of a voxel map.
 class ScanMatcher {
  public:
-  ScanMatcher(const Calibration& calibration, const ScanMatcherConfig& config, WeakDirections weak = WeakDirections::kGuessed);
+  ScanMatcher(const Calibration& calibration, const ScanMatcherConfig& config,
+              WeakDirections weak = WeakDirections::kGuessed);
   ScanMatcher(ScanMatcher&&) noexcept;
   ScanMatcher& operator=(ScanMatcher&&) noexcept;
   ~ScanMatcher();

@@ -91,7 +91,10 @@ void LocalizedEstimator::match(std::int64_t stamp_ns, Odometry& odometry) {
   const Pose odometry_from_body = stack_.newest_pose();
   const FeatureCloud features = stack_.in_newest_body();
   MapFix fix = std::visit(
-      [&](auto& localizer) { return localizer.locate(newest_scan_ns_, features, OdometryReading{odometry_from_body, blind_m_}); }, localizer_);
+      [&](auto& localizer) {
+        return localizer.locate(newest_scan_ns_, features, OdometryReading{odometry_from_body, blind_m_});
+      },
+      localizer_);
   fix.match.processing_s += std::exchange(stacking_s_, 0.0);
   if (fix.match.agreement == MapAgreement::kAgrees) {
     correction_.aim(stamp_ns, odometry.world_from_body, gate().map_from_odometry());

@@ -36,7 +36,8 @@ struct FrameToFrameConfig {
 /// velocity.
 class FrameToFrame {
  public:
-  FrameToFrame(const Calibration& calibration, const FrameToFrameConfig& config, WeakDirections weak = WeakDirections::kGuessed);
+  FrameToFrame(const Calibration& calibration, const FrameToFrameConfig& config,
+               WeakDirections weak = WeakDirections::kGuessed);
   FrameToFrame(FrameToFrame&&) noexcept;
   FrameToFrame& operator=(FrameToFrame&&) noexcept;
   ~FrameToFrame();

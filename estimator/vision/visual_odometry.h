@@ -37,7 +37,8 @@ struct VisionConfig {
 /// Call order for every image: process(), then start_keyframe() if wants_keyframe().
 class VisualOdometry {
  public:
-  VisualOdometry(const Calibration& calibration, const VisionConfig& config, WeakDirections weak = WeakDirections::kGuessed);
+  VisualOdometry(const Calibration& calibration, const VisionConfig& config,
+                 WeakDirections weak = WeakDirections::kGuessed);
   VisualOdometry(VisualOdometry&&) noexcept;
   VisualOdometry& operator=(VisualOdometry&&) noexcept;
   ~VisualOdometry();
