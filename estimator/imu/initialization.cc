@@ -34,7 +34,7 @@ constexpr double kBiasStep = 1e-4;        // [rad/s] of differences
 // rate hides most.
 constexpr double kTremble = 0.5;
 constexpr double kSlowSwing = 1.5;
-constexpr double kSampleMargin = 2.0;  // of a single sample: rounding to the unit's steps adds to its noise
+constexpr double kRevisionMemory_s = 1.0;
 
 /// Range of the walk that the deviations from the mean integrate to, the longest axis.
 template <typename Reading>
@@ -71,13 +71,14 @@ Initializer::Initializer(const Calibration& calibration) : noise_(calibration.im
 
 std::optional<InitialState> Initializer::add(const ImuSample& sample) {
   samples_.push_back(sample);
-  const double count = static_cast<double>(samples_.size());
+  const auto count = static_cast<double>(samples_.size());
   mean_rate_ += (sample.angular_rate - mean_rate_) / count;
   mean_force_ += (sample.specific_force - mean_force_) / count;
 
+  const Excursion strayed = excursion();
+  settle(strayed);
   const double elapsed = count / rate_hz_;
   if (elapsed < kDecisionWindow_s) return std::nullopt;
-  const Excursion strayed = excursion();
   const bool manoeuvres = manoeuvring(strayed);
   if (!manoeuvres && elapsed < kRestWindow_s) return std::nullopt;
 
@@ -178,15 +179,22 @@ bool Initializer::manoeuvring(const Excursion& excursion) const {
          gravity_error > std::max(kMaxGravityError, 3.0 * noise_.accel_turn_on_sigma);
 }
 
-Matrix6d Initializer::increment_covariance() const {
-  const double sample_sigma = kSampleMargin * noise_.accel_density * std::sqrt(rate_hz_) / kStandardGravity;
-  const double n = std::max<double>(2.0, static_cast<double>(samples_.size()));
-  Vector6d variance = Vector6d::Constant(kRestSigma * kRestSigma);
-  variance.head<2>().array() += sample_sigma * sample_sigma / (n * (n - 1.0));
-  return variance.asDiagonal();
+void Initializer::settle(const Excursion& strayed) {
+  const NavigationState settled = calm_start(strayed).state;
+  const Eigen::Quaterniond now_from_before = exp_so3((settled.gyro_bias - samples_.back().angular_rate) / rate_hz_);
+  if (samples_.size() > 1) {
+    const Eigen::Quaterniond foreseen = attitude_.rotation * now_from_before.conjugate();
+    revision_ = std::exp(-1.0 / (rate_hz_ * kRevisionMemory_s)) * (now_from_before * revision_);
+    revision_ += log_so3(foreseen.conjugate() * settled.world_from_body.rotation);
+  }
+  attitude_ = settled.world_from_body;
 }
 
-Pose Initializer::attitude() const { return samples_.empty() ? Pose{} : calm_start(excursion()).state.world_from_body; }
+Matrix6d Initializer::increment_covariance() const {
+  Matrix6d covariance = Matrix6d::Identity() * (kRestSigma * kRestSigma);
+  covariance.topLeftCorner<3, 3>() += revision_ * revision_.transpose() / (rate_hz_ * kRevisionMemory_s);
+  return covariance;
+}
 
 /// A hand turns by degrees within a second: forces are averaged in the newest B, and the heading has changed since the
 /// first sample.

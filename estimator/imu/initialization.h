@@ -35,9 +35,9 @@ class Initializer {
   std::optional<InitialState> add(const ImuSample& sample);
   /// By what has been seen so far, at the origin, as a start at rest now would have it: for outputs before the start,
   /// which go over into the state without a step.
-  Pose attitude() const;
-  /// Of the attitude's change with the last sample: by how much its variance fell. What is taken to rest is held to do
-  /// so within a millimetre and a tenth of a milliradian a sample.
+  const Pose& attitude() const { return attitude_; }
+  /// Of the attitude's change with the last sample. What is taken to rest is held to do so within a millimetre and a
+  /// tenth of a milliradian a sample; by as much as newer samples have moved the attitude, older outputs were wrong.
   Matrix6d increment_covariance() const;
 
  private:
@@ -55,12 +55,15 @@ class Initializer {
   void find_gyro_bias(const Excursion& strayed, bool at_rest, InitialState& start) const;
   void set_attitude(InitialState& start) const;
   Pose attitude_now(const Eigen::Vector3d& gyro_bias) const;
+  void settle(const Excursion& strayed);
 
   ImuNoise noise_;
   double rate_hz_;
   std::vector<ImuSample> samples_;
   Eigen::Vector3d mean_rate_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d mean_force_ = Eigen::Vector3d::Zero();
+  Pose attitude_;
+  Eigen::Vector3d revision_ = Eigen::Vector3d::Zero();  ///< [rad] of the attitude within the last second, in B
 };
 
 }  // namespace plumbline

@@ -174,6 +174,35 @@ TEST(Initializer, VibrationAtRestIsNoMotion) {
 }
 
 /// As when rotors are turned by hand before a flight: it rocks as far as a car does on the road, but was still before.
+/// An engine that idles shakes the first samples by degrees. What a second has brought the attitude is what the first
+/// outputs were wrong by; over many phases of the shaking its square has to be what the outputs claimed.
+TEST(Initializer, OutputsBeforeTheStartKnowThatTheyWereShaken) {
+  constexpr int kPhases = 12;
+  double normalised = 0.0;
+  for (int phase = 0; phase < kPhases; ++phase) {
+    Calibration calibration;
+    Initializer initializer(calibration);
+    RandomStream noise(static_cast<std::uint64_t>(phase), "noise");
+    const double sigma = calibration.imu.accel_density * std::sqrt(calibration.imu_rate_hz);
+    Pose first;
+    Matrix6d claimed = Matrix6d::Zero();
+    for (int i = 0; i < 190; ++i) {
+      const double t = i / calibration.imu_rate_hz;
+      const double shaken = 0.8 * std::cos(kTwoPi * (12.0 * t + phase / static_cast<double>(kPhases)));
+      const Eigen::Vector3d force = kUp + Eigen::Vector3d(shaken, noise.gaussian() * sigma, noise.gaussian() * sigma);
+      initializer.add({std::llround(t * 1e9), Eigen::Vector3d::Zero(), force});
+      if (i == 0)
+        first = initializer.attitude();
+      else
+        claimed += initializer.increment_covariance();
+    }
+    const double error = first.local(initializer.attitude())[1];
+    normalised += error * error / claimed(1, 1) / kPhases;
+  }
+  EXPECT_GT(normalised, 0.3);
+  EXPECT_LT(normalised, 4.0);  // it was hundreds
+}
+
 TEST(Initializer, KnockedAtRestIsNotUnderWay) {
   const auto knocked = [](double t) {
     Reading reading;
