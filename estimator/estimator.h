@@ -104,6 +104,12 @@ struct EstimatorConfig {
   bool vision_enabled = true;
   bool lidar_enabled = true;  ///< scan matching; lidar depth for vision stays
   bool remapping = true;      ///< false: the thesis's forced 6-DOF
+  /// What less effort costs (thesis ch. 6): the share of its features that vision follows, (0, 1] (Table 6.3), and by how
+  /// much scan matching is coarser, at least 1 (Table 6.4).
+  double feature_share = 1.0;
+  double resolution_factor = 1.0;
+
+  bool operator==(const EstimatorConfig&) const = default;
 };
 
 /// An odometry estimator, fed messages in the order in which they arrive. No call throws: a message that cannot
@@ -133,7 +139,7 @@ struct EstimatorInfo {
 };
 const std::vector<EstimatorInfo>& estimator_library();
 
-/// @throws std::invalid_argument for an unknown name or a calibration it cannot work with.
+/// @throws std::invalid_argument for an unknown name, or a calibration or settings it cannot work with.
 std::unique_ptr<Estimator> make_estimator(const std::string& name, const Calibration& calibration,
                                           const EstimatorConfig& config);
 

@@ -9,10 +9,8 @@ namespace plumbline {
 namespace {
 
 constexpr Range kFigure{-1e12, 1e12};
-
-void read_enabled(ConfigReader& reader, const std::string& key, bool& enabled) {
-  reader.section(key, [&](ConfigReader& module) { module.read("enabled", enabled); });
-}
+constexpr Range kFeatureShare{0.01, 1.0};
+constexpr Range kResolutionFactor{1.0, 20.0};
 
 std::string read_name(const ConfigNode& node, const std::string& key) {
   const std::string& name = text_of(node, key);
@@ -55,14 +53,19 @@ void read_estimator(ConfigReader& reader, std::string& name, std::filesystem::pa
     name = read_name(*node, reader.path_of("name"));
     directory = node->directory;
   }
-  read_enabled(reader, "imu", config.imu_enabled);
-  read_enabled(reader, "vision", config.vision_enabled);
-  read_enabled(reader, "lidar", config.lidar_enabled);
+  reader.section("imu", [&](ConfigReader& imu) { imu.read("enabled", config.imu_enabled); });
+  reader.section("vision", [&](ConfigReader& vision) {
+    vision.read("enabled", config.vision_enabled);
+    vision.read("feature_share", config.feature_share, kFeatureShare);
+  });
+  reader.section("lidar", [&](ConfigReader& lidar) {
+    lidar.read("enabled", config.lidar_enabled);
+    lidar.read("resolution_factor", config.resolution_factor, kResolutionFactor);
+  });
   reader.section("degeneracy", [&](ConfigReader& degeneracy) { degeneracy.read("remapping", config.remapping); });
-  const bool as_it_is = config.imu_enabled && config.vision_enabled && config.lidar_enabled && config.remapping;
-  if (outside_name(name) && !as_it_is) {
+  if (outside_name(name) && config != EstimatorConfig{}) {
     throw InputError(reader.node().where + ": " + reader.path_of("name") + ": found '" + name +
-                     "', which has no switches such as vision.enabled or degeneracy.remapping");
+                     "', which has no settings such as vision.enabled or degeneracy.remapping");
   }
 }
 

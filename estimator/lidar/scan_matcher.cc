@@ -56,9 +56,12 @@ struct LineMatch {
   int laser;
 };
 
-double reach_of(const FeaturePoint& feature) {
-  return std::clamp(kReachPerRange * feature.position.cast<double>().norm(), kLeastReach_m, kLargestReach_m);
+double reach_of(const FeaturePoint& feature, double resolution_factor) {
+  const double range_m = feature.position.cast<double>().norm();
+  return resolution_factor * std::clamp(kReachPerRange * range_m, kLeastReach_m, kLargestReach_m);
 }
+
+int coarser(int budget, double resolution_factor) { return static_cast<int>(std::lround(budget / resolution_factor)); }
 
 std::vector<Eigen::Vector3d> in_world(const std::vector<FeaturePoint>& features, const Pose& world_from_body) {
   std::vector<Eigen::Vector3d> points;
@@ -76,9 +79,9 @@ struct ScanMatcher::Impl {
         bias_sigma_m(kBiasShare * calibration.lidar_range_sigma_m),
         biases(kWholeBias * bias_sigma_m),
         body_from_lidar(calibration.body_from_lidar),
-        edges(settings.coarse_voxel_m, settings.edge_resolution_m),
-        planes(settings.coarse_voxel_m, settings.plane_resolution_m),
-        clutter(settings.coarse_voxel_m, kClutterResolution_m),
+        edges(coarser_map(settings, settings.edge_resolution_m)),
+        planes(coarser_map(settings, settings.plane_resolution_m)),
+        clutter(coarser_map(settings, kClutterResolution_m)),
         recorded_edges(settings.coarse_voxel_m, settings.edge_resolution_m),
         recorded_planes(settings.coarse_voxel_m, settings.plane_resolution_m) {
     options.max_iterations = settings.max_iterations;
@@ -92,6 +95,10 @@ struct ScanMatcher::Impl {
     edge_limits.largest_tilt_sigma = settings.largest_edge_tilt;
     plane_limits.largest_tilt_sigma = settings.largest_plane_tilt;
     plane_limits.largest_disagreement = settings.largest_plane_disagreement;
+  }
+
+  static VoxelMap coarser_map(const ScanMatcherConfig& settings, double resolution_m) {
+    return {settings.resolution_factor * settings.coarse_voxel_m, settings.resolution_factor * resolution_m};
   }
 
   ScanMatcherConfig config;
@@ -119,7 +126,7 @@ class MapConstraints {
  public:
   MapConstraints(const VoxelMap& edges, const VoxelMap& planes, const VoxelMap& clutter, const FitLimits& edge_limits,
                  const FitLimits& plane_limits, double sigma_m, double bias_sigma_m, const RangeBiases& biases,
-                 const Eigen::Vector3d& lidar_in_body, const FeatureCloud& features)
+                 const Eigen::Vector3d& lidar_in_body, double resolution_factor, const FeatureCloud& features)
       : edges_(edges),
         planes_(planes),
         clutter_(clutter),
@@ -129,6 +136,7 @@ class MapConstraints {
         bias_sigma_m_(bias_sigma_m),
         biases_(biases),
         lidar_in_body_(lidar_in_body),
+        resolution_factor_(resolution_factor),
         features_(features) {
     plane_matches_.reserve(features.planes.size());
     line_matches_.reserve(features.edges.size() + features.clutter.size());
@@ -246,16 +254,18 @@ class MapConstraints {
   void match_plane(const FeaturePoint& feature, const Pose& world_from_body) {
     const Eigen::Vector3d point = feature.position.cast<double>();
     const Eigen::Vector3d normal = world_from_body.rotation * feature.normal.cast<double>();
-    NearestSamples nearest(kPlaneNeighbours, reach_of(feature), normal.cast<float>());
-    planes_.nearest(world_from_body * point, reach_of(feature), nearest);
+    const double reach_m = reach_of(feature, resolution_factor_);
+    NearestSamples nearest(kPlaneNeighbours, reach_m, normal.cast<float>());
+    planes_.nearest(world_from_body * point, reach_m, nearest);
     const auto plane = fit_plane(nearest, plane_limits_);
     if (plane) plane_matches_.push_back({point, beam_to(point), *plane, feature.laser});
   }
 
   void match_line(const FeaturePoint& feature, const Pose& world_from_body) {
     const Eigen::Vector3d point = feature.position.cast<double>();
-    NearestSamples nearest(kLineNeighbours, reach_of(feature), Eigen::Vector3f::Zero());
-    edges_.nearest(world_from_body * point, reach_of(feature), nearest);
+    const double reach_m = reach_of(feature, resolution_factor_);
+    NearestSamples nearest(kLineNeighbours, reach_m, Eigen::Vector3f::Zero());
+    edges_.nearest(world_from_body * point, reach_m, nearest);
     const auto line = fit_line(nearest, edge_limits_);
     if (!line) return;
     const double sigma_m = std::hypot(sigma_m_, static_cast<double>(feature.spread_m));
@@ -264,8 +274,9 @@ class MapConstraints {
 
   void match_clutter(const FeaturePoint& feature, const Pose& world_from_body) {
     const Eigen::Vector3d point = feature.position.cast<double>();
-    NearestSamples nearest(kClutterNeighbours, kClutterReach_m, Eigen::Vector3f::Zero());
-    clutter_.nearest(world_from_body * point, kClutterReach_m, nearest);
+    const double reach_m = resolution_factor_ * kClutterReach_m;
+    NearestSamples nearest(kClutterNeighbours, reach_m, Eigen::Vector3f::Zero());
+    clutter_.nearest(world_from_body * point, reach_m, nearest);
     const auto line = line_through_clutter(nearest, world_from_body.rotation * feature.normal.cast<double>());
     if (line) line_matches_.push_back({point, beam_to(point), *line, kClutterSigma_m, feature.laser});
   }
@@ -279,6 +290,7 @@ class MapConstraints {
   double bias_sigma_m_;
   const RangeBiases& biases_;
   Eigen::Vector3d lidar_in_body_;
+  double resolution_factor_;
   const FeatureCloud& features_;
   bool searched_ = false;
   Pose searched_at_;
@@ -297,14 +309,16 @@ ScanMatcher::~ScanMatcher() = default;
 SolveResult ScanMatcher::match(const FeatureCloud& features, const PosePrior& world_from_body,
                                const Linearizer& further_rows) {
   Impl& m = *impl_;
-  const FeatureCloud used = {every_nth(features.edges, m.config.edge_budget),
-                             pick(features.planes, sample_by_direction(features.planes, m.config.plane_budget)),
-                             every_nth(features.clutter, m.config.clutter_budget)};
+  const double factor = m.config.resolution_factor;
+  const int plane_budget = coarser(m.config.plane_budget, factor);
+  const FeatureCloud used = {every_nth(features.edges, coarser(m.config.edge_budget, factor)),
+                             pick(features.planes, sample_by_direction(features.planes, plane_budget)),
+                             every_nth(features.clutter, coarser(m.config.clutter_budget, factor))};
   m.edges.prepare(in_world(used.edges, world_from_body.mean));
   m.planes.prepare(in_world(used.planes, world_from_body.mean));
   m.clutter.prepare(in_world(used.clutter, world_from_body.mean));
   MapConstraints constraints(m.edges, m.planes, m.clutter, m.edge_limits, m.plane_limits, m.sigma_m, m.bias_sigma_m,
-                             m.biases, m.body_from_lidar.translation, used);
+                             m.biases, m.body_from_lidar.translation, factor, used);
   m.rows.clear();
   std::size_t planes = 0;
   SolveResult solved = solve(

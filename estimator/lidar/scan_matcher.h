@@ -18,6 +18,9 @@ struct ScanMatcherConfig {
   double edge_resolution_m = 0.1;
   double plane_resolution_m = 0.4;
   double memory_path_m = 300.0;  ///< nothing older takes part in matching
+  /// By how much all of matching is coarser (thesis Table 6.4): cells and neighbourhoods larger, features fewer. What
+  /// map() gives stays as fine as it is.
+  double resolution_factor = 1.0;
   /// On whitened J^T J. Measured in worlds of known form (16 rings, 1.2 cm): the largest eigenvalue of a degenerate
   /// direction is 110 in a smooth tunnel, 710 on a bare plain, 620 along a round tube; the smallest of any direction is
   /// 34,500 in a corridor with a pair of door frames every 10 m, 204,000 with one every 5 m, 317,000 in a room. This is

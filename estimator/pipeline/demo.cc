@@ -7,6 +7,7 @@
 #include "estimator/lidar/deskew.h"
 #include "estimator/lidar/features.h"
 #include "estimator/pipeline/module_health.h"
+#include "estimator/vision/corner_detector.h"
 
 namespace plumbline {
 namespace {
@@ -24,14 +25,15 @@ constexpr double kMapTranslationSigma_m = 0.02;
 constexpr double kLost_s = 2.0;   // without any image or scan that could be solved
 constexpr double kBlind_s = 0.3;  // without an image that could be solved: scans tell the velocity
 
-FrameToFrameConfig vision_config(const DemoConfig& stages) {
-  FrameToFrameConfig config;
-  config.map_depth_only = stages.map_depth_only;
-  return config;
+FrameToFrameConfig vision_config(const EstimatorConfig& config, const DemoConfig& stages) {
+  FrameToFrameConfig vision;
+  vision.map_depth_only = stages.map_depth_only;
+  vision.features_per_cell = features_of_share(vision.features_per_cell, config.feature_share);
+  return vision;
 }
 
-WeakDirections weak_directions(const EstimatorConfig& config, const DemoConfig& stages) {
-  return stages.constant_prior ? WeakDirections::kPulled : plumbline::weak_directions(config.remapping);
+WeakDirections weak_directions_of_stages(const EstimatorConfig& config, const DemoConfig& stages) {
+  return stages.constant_prior ? WeakDirections::kPulled : weak_directions(config.remapping);
 }
 
 MessageUse clocked_use(const Calibration& calibration, EstimatorConfig config) {
@@ -52,9 +54,10 @@ Demo::Demo(const Calibration& calibration, const EstimatorConfig& config, const 
       config_(config),
       stages_(stages),
       gate_(clocked_use(calibration, config)),
-      vision_(calibration, vision_config(stages), weak_directions(config, stages)),
-      sweeps_(calibration, weak_directions(config, stages)),
-      matcher_(calibration, ScanMatcherConfig{}, weak_directions(config, stages)) {
+      vision_(calibration, vision_config(config, stages), weak_directions_of_stages(config, stages)),
+      sweeps_(calibration, weak_directions_of_stages(config, stages)),
+      matcher_(calibration, {.resolution_factor = config.resolution_factor},
+               weak_directions_of_stages(config, stages)) {
   stages_.scan_matching = stages.scan_matching && config.lidar_enabled;
   stages_.sweep_refinement = stages.sweep_refinement && config.lidar_enabled;
 }

@@ -34,11 +34,12 @@ MessageUse use_of(ImuUse imu) {
   return use;
 }
 
-ScanMatcherConfig scan_matcher_config() {
-  ScanMatcherConfig config;
-  config.largest_plane_disagreement = 1.0;
-  config.clutter_budget = kMatchedClutter;
-  return config;
+ScanMatcherConfig scan_matcher_config(const EstimatorConfig& config) {
+  ScanMatcherConfig matcher;
+  matcher.resolution_factor = config.resolution_factor;
+  matcher.largest_plane_disagreement = 1.0;
+  matcher.clutter_budget = kMatchedClutter;
+  return matcher;
 }
 
 }  // namespace
@@ -51,7 +52,7 @@ Loam::Loam(const Calibration& calibration, const EstimatorConfig& config, ImuUse
       gate_(use_of(imu)),
       initializer_(calibration),
       odometry_(calibration, weak_directions(config.remapping)),
-      matcher_(calibration, scan_matcher_config(), weak_directions(config.remapping)) {}
+      matcher_(calibration, scan_matcher_config(config), weak_directions(config.remapping)) {}
 
 void Loam::add(const ImuSample& received) {
   const std::optional<ImuSample> admitted = gate_.admit(received);

@@ -79,7 +79,7 @@ std::unique_ptr<Estimator> make_vloam(const std::string& name, const Calibration
   if (name == "vio" || name == "imu") chosen.lidar_enabled = false;
   if (name == "imu_lidar" || name == "imu") chosen.vision_enabled = false;
   const Coupling coupling = name == "joint" ? Coupling::kJoint : Coupling::kSequential;
-  return std::make_unique<Vloam>(calibration, chosen, VisionConfig{}, ScanMatcherConfig{}, coupling);
+  return std::make_unique<Vloam>(calibration, chosen, coupling);
 }
 
 std::unique_ptr<Estimator> make_demo(const std::string& name, const Calibration& calibration,
@@ -110,7 +110,9 @@ std::unique_ptr<Estimator> make_without_imu(const std::string& name, const Calib
   throw std::invalid_argument("estimator: '" + name + "' needs the IMU, which estimator.imu.enabled switches off");
 }
 
-void validate_or_throw(const std::string& name, const Calibration& calibration) {
+constexpr double kCoarsest = 20.0;  // fewer features than that leaves are too few to match
+
+void validate_or_throw(const std::string& name, const Calibration& calibration, const EstimatorConfig& config) {
   const auto& library = estimator_library();
   if (std::none_of(library.begin(), library.end(), [&](const EstimatorInfo& info) { return info.name == name; })) {
     std::string known;
@@ -121,13 +123,19 @@ void validate_or_throw(const std::string& name, const Calibration& calibration) 
                                  !(calibration.camera.fx > 0.0) || !(calibration.camera.fy > 0.0))) {
     throw std::invalid_argument("estimator: camera intrinsics must be positive");
   }
+  if (!(config.feature_share > 0.0 && config.feature_share <= 1.0)) {
+    throw std::invalid_argument("estimator: the share of features must be above 0 and at most 1");
+  }
+  if (!(config.resolution_factor >= 1.0 && config.resolution_factor <= kCoarsest)) {
+    throw std::invalid_argument("estimator: the resolution factor must be 1 to 20");
+  }
 }
 
 }  // namespace
 
 std::unique_ptr<Estimator> make_estimator(const std::string& name, const Calibration& calibration,
                                           const EstimatorConfig& config) {
-  validate_or_throw(name, calibration);
+  validate_or_throw(name, calibration, config);
   if (name.starts_with("loam")) return make_loam(name, calibration, config);
   const bool demo = name.starts_with("demo") || name == "vo_depth_only";
   if (demo) return make_demo(name, calibration, config);

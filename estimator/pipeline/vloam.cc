@@ -7,6 +7,7 @@
 #include "estimator/lidar/deskew.h"
 #include "estimator/lidar/features.h"
 #include "estimator/pipeline/module_health.h"
+#include "estimator/vision/corner_detector.h"
 
 namespace plumbline {
 namespace {
@@ -21,17 +22,22 @@ constexpr double kVisionMemory_s = 1.0;
 // Those of scan matching are the map's (see InertialFilter and MatchDrift).
 constexpr double kLidarInflation = 1.0;
 
+VisionConfig vision_config(const EstimatorConfig& config) {
+  VisionConfig vision;
+  vision.features_per_cell = features_of_share(vision.features_per_cell, config.feature_share);
+  return vision;
+}
+
 }  // namespace
 
-Vloam::Vloam(const Calibration& calibration, const EstimatorConfig& config, const VisionConfig& vision,
-             const ScanMatcherConfig& matcher, Coupling coupling)
+Vloam::Vloam(const Calibration& calibration, const EstimatorConfig& config, Coupling coupling)
     : calibration_(calibration),
       config_(config),
       coupling_(coupling),
       gate_(message_use(calibration_, config)),
       initializer_(calibration_),
-      vision_(calibration_, vision, weak_directions(config.remapping)),
-      matcher_(calibration_, matcher, weak_directions(config.remapping)) {}
+      vision_(calibration_, vision_config(config), weak_directions(config.remapping)),
+      matcher_(calibration_, {.resolution_factor = config.resolution_factor}, weak_directions(config.remapping)) {}
 
 void Vloam::add(const ImuSample& received) {
   const std::optional<ImuSample> sample = gate_.admit(received);

@@ -26,8 +26,7 @@ enum class Coupling {
 /// refines against the map, each only along the directions that its data determine; both feed back to the IMU.
 class Vloam final : public Estimator {
  public:
-  Vloam(const Calibration& calibration, const EstimatorConfig& config, const VisionConfig& vision = {},
-        const ScanMatcherConfig& matcher = {}, Coupling coupling = Coupling::kSequential);
+  Vloam(const Calibration& calibration, const EstimatorConfig& config, Coupling coupling = Coupling::kSequential);
 
   void add(const ImuSample& sample) override;
   void add(const CameraFrame& frame) override;

@@ -92,6 +92,10 @@ double noise_sigma_px(float response, double noise_dn) {
 
 }  // namespace
 
+int features_of_share(int features_per_cell, double share) {
+  return std::max(1, static_cast<int>(std::lround(share * features_per_cell)));
+}
+
 double image_noise_dn(const GreyView& image, const CameraNoise& data_sheet) {
   // Immerkaer's mask [1 -2 1; -2 4 -2; 1 -2 1] is blind to any ramp and to any edge along an axis; noise passes with
   // gain 6. Every third pixel of every third row is plenty for a median.

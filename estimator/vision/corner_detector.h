@@ -29,6 +29,9 @@ struct CornerOptions {
   int min_distance_px = 8;  ///< between features
 };
 
+/// A sub-region's features when only a share of all is to be followed; at least one.
+int features_of_share(int features_per_cell, double share);
+
 struct Corner {
   Eigen::Vector2f pixel = Eigen::Vector2f::Zero();
   double noise_sigma_px = 0.0;  ///< how far image noise alone moves a track of this corner

@@ -185,6 +185,16 @@ TEST(WithoutAnImu, WhatNeedsOneIsRefused) {
   }
 }
 
+TEST(EstimatorSettings, OutOfRangeAreRefused) {
+  const Calibration calibration = calibration_of(16, 10.0);
+  for (const double share : {0.0, -0.5, 1.5, std::nan("")}) {
+    EXPECT_THROW(make_estimator("vloam", calibration, {.feature_share = share}), std::invalid_argument) << share;
+  }
+  for (const double factor : {0.5, 21.0, std::nan("")}) {
+    EXPECT_THROW(make_estimator("vloam", calibration, {.resolution_factor = factor}), std::invalid_argument) << factor;
+  }
+}
+
 TEST(Loam, TakesSweepsWhoseReturnsBearOneTime) {
   const testing::BoxWorld room = testing::furnished_room();
   RandomStream noise(4, "lidar");

@@ -87,6 +87,12 @@ TEST(Corners, FillEverySubRegionOfATexturedImageToItsShareAndKeepApart) {
   }
 }
 
+TEST(Corners, OfAShareThereIsAtLeastOneACell) {
+  EXPECT_EQ(features_of_share(10, 1.0), 10);
+  EXPECT_EQ(features_of_share(10, 0.5), 5);
+  EXPECT_EQ(features_of_share(10, 0.01), 1);
+}
+
 TEST(Corners, RefillOnlyWhereFeaturesAreMissing) {
   RandomStream random(1, "noise");
   const CameraFrame frame = expose(testing::random_texture(640, 360, 4), 0, 1.0, 1.0, random);

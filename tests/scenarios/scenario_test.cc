@@ -127,7 +127,8 @@ rig:
   imu: {model: bmi055, rate_hz: 100}
 estimator:
   name: imu
-  vision: {enabled: false}
+  vision: {enabled: false, feature_share: 0.5}
+  lidar: {resolution_factor: 2}
   degeneracy: {remapping: false}
 expect: {status: ok, drift_percent: {max: 0.5}, progress_ratio: {min: 0.98, max: 1.02}}
 )");
@@ -153,6 +154,8 @@ expect: {status: ok, drift_percent: {max: 0.5}, progress_ratio: {min: 0.98, max:
   EXPECT_FALSE(scenario.estimator.vision_enabled);
   EXPECT_TRUE(scenario.estimator.lidar_enabled);
   EXPECT_FALSE(scenario.estimator.remapping);
+  EXPECT_EQ(scenario.estimator.feature_share, 0.5);
+  EXPECT_EQ(scenario.estimator.resolution_factor, 2.0);
   ASSERT_EQ(scenario.expect.size(), 2U);
   EXPECT_EQ(scenario.expect_status, "ok");
 }

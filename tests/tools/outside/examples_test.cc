@@ -69,7 +69,7 @@ TEST_F(OutsideExamples, WhatIsNoEstimatorIsBadInput) {
   EXPECT_EQ(call("run base.yaml --estimator exec:no-such-program-anywhere --out bad"), 2);
   EXPECT_THAT(content("said.txt"), HasSubstr("cannot be executed"));
   EXPECT_EQ(call("run base.yaml --estimator exec:/bin/false --set estimator.vision.enabled=false --out bad"), 2);
-  EXPECT_THAT(content("said.txt"), HasSubstr("no switches"));
+  EXPECT_THAT(content("said.txt"), HasSubstr("no settings"));
   EXPECT_FALSE(fs::exists(directory_.path() / "bad"));
 }
 
