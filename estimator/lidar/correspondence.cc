@@ -95,7 +95,8 @@ Vector6d component_jacobian(const Eigen::Vector3d& direction, const Eigen::Vecto
 
 }  // namespace
 
-std::optional<MapPlane> fit_plane(const NearestSamples& neighbours, const FitLimits& limits) {
+std::optional<MapPlane> fit_plane(const NearestSamples& neighbours, const FitLimits& limits,
+                                  const Eigen::Vector3d& used_at) {
   const Positions points = all_positions(neighbours);
   if (points.count < limits.least_neighbours) return std::nullopt;
   const Scatter s = scatter_of(points);
@@ -104,6 +105,10 @@ std::optional<MapPlane> fit_plane(const NearestSamples& neighbours, const FitLim
   if (s.eigenvalues[0] * limits.ratio > s.eigenvalues[1]) return std::nullopt;
   const double tilt = tilt_sigma(s.eigenvalues[0], s.eigenvalues[1], points.count, 3, limits.map_sigma_m);
   if (tilt > limits.largest_tilt_sigma) return std::nullopt;
+  // A lone ring's trace on the ground is a strip; what is matched a metre beside it would take its twist for a slope.
+  if (std::abs(s.eigenvectors.col(1).dot(used_at - s.centroid)) * tilt > limits.largest_offset_sigma_m) {
+    return std::nullopt;
+  }
   const Eigen::Vector3d normal = s.eigenvectors.col(0);
   if (mean_normal(neighbours, normal).cross(normal).norm() > limits.largest_disagreement) return std::nullopt;
   for (int i = 0; i < points.count; ++i) {

@@ -42,15 +42,19 @@ struct FitLimits {
   int least_neighbours = 5;
   double ratio = 9.0;  ///< of scatter eigenvalues, "much larger"
   double largest_residual_m = 0.08;
-  double least_spread_m = 0.12;      ///< standard deviation along each large direction
-  double map_sigma_m = 0.006;        ///< noise of a map point, at least
-  double largest_tilt_sigma = 0.03;  ///< [rad] of the fitted normal or direction
+  double least_spread_m = 0.12;           ///< standard deviation along each large direction
+  double map_sigma_m = 0.006;             ///< noise of a map point, at least
+  double largest_tilt_sigma = 0.03;       ///< [rad] of the fitted normal or direction
+  double largest_offset_sigma_m = 0.005;  ///< of a plane where it is used, by its tilt: a quarter of a match's sigma,
+                                          ///< since all of a ring's points may share it
   /// [rad] between a plane's normal and the mean of its neighbours' own. Where a beam grazes, range noise is the
   /// largest spread across a ring, and the plane through a single ring's points contains the beam.
   double largest_disagreement = 1.0;
 };
 
-std::optional<MapPlane> fit_plane(const NearestSamples& neighbours, const FitLimits& limits);
+/// @param used_at  the point in W that the plane is to tell something of
+std::optional<MapPlane> fit_plane(const NearestSamples& neighbours, const FitLimits& limits,
+                                  const Eigen::Vector3d& used_at);
 std::optional<MapLine> fit_line(const NearestSamples& neighbours, const FitLimits& limits);
 
 /// Where the neighbours fill space, the line through the nearest of them along `unseen`, the direction across the beams

@@ -257,7 +257,7 @@ class MapConstraints {
     const double reach_m = reach_of(feature, resolution_factor_);
     NearestSamples nearest(kPlaneNeighbours, reach_m, normal.cast<float>());
     planes_.nearest(world_from_body * point, reach_m, nearest);
-    const auto plane = fit_plane(nearest, plane_limits_);
+    const auto plane = fit_plane(nearest, plane_limits_, world_from_body * point);
     if (plane) plane_matches_.push_back({point, beam_to(point), *plane, feature.laser});
   }
 

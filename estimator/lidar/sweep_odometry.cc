@@ -117,7 +117,7 @@ class SweepConstraints {
     const Eigen::Vector3d placed = motion.place(point, share_of(f));
     NearestSamples nearest(kPlaneNeighbours, reach_of(f, doubt_m_), f.normal);
     planes_.search(placed, nearest);
-    const auto plane = fit_plane(nearest, plane_limits_);
+    const auto plane = fit_plane(nearest, plane_limits_, placed);
     if (!plane) return;
     rows.add((plane->normal.dot(placed) - plane->offset) / sigma_m_,
              motion.jacobian(plane->normal, point, share_of(f)) / sigma_m_);

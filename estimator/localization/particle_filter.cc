@@ -102,7 +102,7 @@ ParticleFilter::Likelihood ParticleFilter::likelihood(const std::vector<FeatureP
     const Eigen::Vector3d normal = map_from_body.rotation * f.normal.cast<double>();
     NearestSamples nearest(kFieldNeighbours, kReach_m, normal.cast<float>());
     planes_.nearest(place, kReach_m, nearest);
-    const auto patch = fit_plane(nearest, limits_);
+    const auto patch = fit_plane(nearest, limits_, place);
     double density = kRandomShare / kReach_m;
     if (patch) {
       const double distance_m = std::abs(patch->normal.dot(place) - patch->offset);

@@ -137,7 +137,7 @@ void PriorMapBuilder::find_normals(FeatureCloud& surfaces) const {
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     NearestSamples nearest(kNormalNeighbours, reach_m, Eigen::Vector3f::Zero());
     all.nearest(positions[i], reach_m, nearest);
-    const auto plane = fit_plane(nearest, limits);
+    const auto plane = fit_plane(nearest, limits, positions[i]);
     if (!plane) continue;
     FeaturePoint point{cells_[i].position, cells_[i].intensity};
     point.normal = plane->normal.cast<float>();
