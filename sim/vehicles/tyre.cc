@@ -80,10 +80,17 @@ TyreForce Tyre::step(const WheelMotion& wheel, Ground& ground, double route_z, d
   }
   result.force = result.load_n * normal + grip.x() * forward + grip.y() * left;
   result.torque = (-radius_m * normal).cross(result.force);
-  constexpr double kCreep_rad_s = 0.5;  // the rolling resistance fades out below
-  result.torque -= design_.rolling_resistance * result.load_n * design_.radius_m *
-                   std::tanh(wheel.spin_rad_s / kCreep_rad_s) * wheel.axle;
+  result.torque -= rolling_resistance(wheel.spin_rad_s, result.load_n, dt_s) * wheel.axle;
   return result;
+}
+
+/// Dry friction holds a wheel that stands: it twists by kHeld_rad at most, as a spring with a damper, and then rolls.
+double Tyre::rolling_resistance(double spin_rad_s, double load_n, double dt_s) {
+  constexpr double kHeld_rad = 0.02;
+  constexpr double kDamping_s = 0.1;
+  twist_rad_ = std::clamp(twist_rad_ + dt_s * spin_rad_s, -kHeld_rad, kHeld_rad);
+  const double share = std::clamp((twist_rad_ + kDamping_s * spin_rad_s) / kHeld_rad, -1.0, 1.0);
+  return share * design_.rolling_resistance * load_n * design_.radius_m;
 }
 
 }  // namespace plumbline
