@@ -77,7 +77,6 @@ class InertialFilter {
   /// what lies back longer than kRevisionMemory_s fades. Bias and tilt that a turn brings to light have bent the way
   /// for long, and all of that is put right at once.
   const Vector6d& map_revision() const { return map_revision_; }
-  static constexpr double kRevisionMemory_s = 1.0;
 
  private:
   Matrix6d covariance_of(int pose) const { return covariance_.block<6, 6>(pose, pose); }

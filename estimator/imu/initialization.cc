@@ -34,7 +34,6 @@ constexpr double kBiasStep = 1e-4;        // [rad/s] of differences
 // rate hides most.
 constexpr double kTremble = 0.5;
 constexpr double kSlowSwing = 1.5;
-constexpr double kRevisionMemory_s = 1.0;
 
 /// Range of the walk that the deviations from the mean integrate to, the longest axis.
 template <typename Reading>

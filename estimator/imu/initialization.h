@@ -8,6 +8,9 @@
 
 namespace plumbline {
 
+/// What corrections have moved the past by stays in the covariance of increments for so long.
+inline constexpr double kRevisionMemory_s = 1.0;
+
 /// What the first samples tell: attitude against gravity, gyro bias unless travelling, and how sure that is.
 struct InitialState {
   NavigationState state;

@@ -9,7 +9,7 @@ constexpr std::int64_t kIncrementWindow_ns = 1'000'000'000;
 
 void IncrementWatch::update(InertialFilter& filter, const PoseTrack& world_from_body) {
   const std::int64_t stamp_ns = filter.state().stamp_ns;
-  revision_per_s_ = filter.map_revision() * filter.map_revision().transpose() / InertialFilter::kRevisionMemory_s;
+  revision_per_s_ = filter.map_revision() * filter.map_revision().transpose() / kRevisionMemory_s;
   if (stamp_ns <= past_ns_) return;
   const bool full = stamp_ns - past_ns_ >= kIncrementWindow_ns;
   if (!full && complete_) return;

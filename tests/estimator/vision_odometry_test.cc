@@ -31,20 +31,26 @@ Matrix6d prior_covariance() {
 }
 
 /// What a lens makes of a pinhole's image.
-cv::Mat through_lens(const cv::Mat& pinhole, const CameraIntrinsics& camera) {
-  if (camera.distortion.none()) return pinhole;
-  cv::Mat places(pinhole.size(), CV_32FC2);
-  for (int v = 0; v < pinhole.rows; ++v) {
-    for (int u = 0; u < pinhole.cols; ++u) {
+cv::Mat through_lens(const cv::Mat& pinhole, const cv::Mat& places) {
+  if (places.empty()) return pinhole;
+  cv::Mat image;
+  cv::remap(pinhole, image, places, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  return image;
+}
+
+/// Where in a pinhole's image each pixel looks; empty without distortion.
+cv::Mat pinhole_places(const CameraIntrinsics& camera) {
+  if (camera.distortion.none()) return {};
+  cv::Mat places(camera.height, camera.width, CV_32FC2);
+  for (int v = 0; v < places.rows; ++v) {
+    for (int u = 0; u < places.cols; ++u) {
       const Eigen::Vector2d ideal =
           undistort(camera.distortion, {(u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy});
       places.at<cv::Vec2f>(v, u) = {static_cast<float>(camera.fx * ideal.x() + camera.cx),
                                     static_cast<float>(camera.fy * ideal.y() + camera.cy)};
     }
   }
-  cv::Mat image;
-  cv::remap(pinhole, image, places, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
-  return image;
+  return places;
 }
 
 /// Drives a VisualOdometry over the room as the pipeline does. The prior is the true motion of one frame, wrong by
@@ -83,9 +89,8 @@ class Drive {
     Vector6d wrong = Vector6d::Zero();
     for (int i = 0; frame > 0 && i < 6; ++i) wrong[i] = (i < 3 ? 2e-4 : 1e-3) * noise.gaussian();
     const PosePrior prior{(keyframe.inverse() * estimate * increment).retract(wrong), prior_covariance()};
-    const CameraFrame image =
-        testing::expose(through_lens(testing::draw(planes, calibration, truth), calibration.camera), stamp_ns,
-                        light.gain, light.noise_dn, noise);
+    const CameraFrame image = testing::expose(through_lens(testing::draw(planes, calibration, truth), lens_places),
+                                              stamp_ns, light.gain, light.noise_dn, noise);
     const SolveResult result = odometry.process(image, prior);
     estimate = keyframe * result.pose;
     true_keyframe_from_body = true_keyframe.inverse() * truth;
@@ -102,6 +107,7 @@ class Drive {
 
   Path world_from_body;
   Calibration calibration;
+  cv::Mat lens_places = pinhole_places(calibration.camera);
   std::vector<TexturedPlane> planes = room();
   VisualOdometry odometry;
   RandomStream noise{5, "drive"};
