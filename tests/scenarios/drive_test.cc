@@ -57,6 +57,8 @@ std::string bytes_of(const RunRecord& record) {
 
 const std::vector<std::string> kShortWalk{"rig.camera.rate_hz=20", "rig.camera.width=320", "rig.camera.height=180",
                                           "motion.rest_s=1", "motion.waypoints=[[6, 4.75, 1.5], [7.5, 4.75, 1.5]]"};
+// Of frames, drawing is nearly all of a drive's cost.
+const std::string kFewerFrames = "rig.camera.rate_hz=20";
 // Ten metres in the middle of the tunnel, the ends out of the lidar's range.
 const std::string kShortDrive = "motion.waypoints=[[-5, 0, 1.5], [5, 0, 1.5]]";
 
@@ -73,7 +75,7 @@ TEST(Drive, EstimateAndMapAreTheSameBytesForOneAndTwoThreadsAndOthersForOtherSee
 }
 
 TEST(Drive, InATunnelTheLidarSaysThatItCannotSeeAlongIt) {
-  const RunRecord record = drive("tunnel_short.yaml", {"motion.rest_s=1", kShortDrive});
+  const RunRecord record = drive("tunnel_short.yaml", {"motion.rest_s=1", kShortDrive, kFewerFrames});
   int scans = 0;
   int along_axis = 0;
   for (const ModuleHealth& health : record.health) {
@@ -96,7 +98,7 @@ TEST(Drive, InATunnelTheLidarSaysThatItCannotSeeAlongIt) {
 
 TEST(Drive, InTheDarkVisionStandsAsideAndComesBack) {
   const RunRecord record =
-      drive("corridor.yaml", {"motion.rest_s=1", "motion.waypoints=[[1.5, 0, 1.5], [7, 0, 1.5]]",
+      drive("corridor.yaml", {"motion.rest_s=1", kFewerFrames, "motion.waypoints=[[1.5, 0, 1.5], [7, 0, 1.5]]",
                               "world.light.schedule=[{start_s: 2.5, factor: 0}, {start_s: 4.5, factor: 1}]"});
   int dark = 0;
   int dark_used = 0;
@@ -109,8 +111,8 @@ TEST(Drive, InTheDarkVisionStandsAsideAndComesBack) {
     if (t > 2.5 && t < 4.5) ++dark, dark_used += used ? 1 : 0;
     if (t > 5.5) ++lit_again, lit_again_used += used ? 1 : 0;  // a second to come back
   }
-  ASSERT_GT(dark, 90);
-  ASSERT_GT(lit_again, 50);
+  ASSERT_GT(dark, 35);
+  ASSERT_GT(lit_again, 20);
   EXPECT_LE(dark_used, 0.05 * dark);
   EXPECT_GE(lit_again_used, 0.95 * lit_again);
   EXPECT_NEAR(travelled(record.estimate), travelled(record.ground_truth), 0.1);
