@@ -20,6 +20,9 @@ class SteadyMotion {
   const NavigationState& state() const { return state_; }  ///< its velocity too
   /// Of a motion over a time: what rate and velocity may have changed since they were measured.
   Matrix6d motion_covariance(double duration_s) const;
+  /// Of the pose at the end of a motion that was taken for steady and was not, by how much rate and velocity have
+  /// lately changed from one motion to the next.
+  Matrix6d bend_covariance() const;
 
  private:
   NavigationState state_;
@@ -27,6 +30,10 @@ class SteadyMotion {
   Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();
   bool turns_;
   bool known_ = false;
+  double duration_s_ = 0.0;              ///< of the last motion followed
+  int changes_ = 0;                      ///< seen so far
+  double rate_change_square_ = 0.0;      ///< mean square of an axis [rad^2/s^2]
+  double velocity_change_square_ = 0.0;  ///< likewise [m^2/s^2]
 };
 
 }  // namespace plumbline

@@ -300,7 +300,8 @@ Matrix6d Loam::match_prior() const {
 
 Matrix6d Loam::pose_covariance(std::int64_t stamp_ns) const {
   if (filter_) return filter_->pose_covariance();
-  return covariance_.of_world() + steady_->motion_covariance(std::max(0.0, seconds_between(newest_ns_, stamp_ns)));
+  return covariance_.of_world() + steady_->bend_covariance() +
+         steady_->motion_covariance(std::max(0.0, seconds_between(newest_ns_, stamp_ns)));
 }
 
 Matrix6d Loam::increment_covariance(double interval_s) const {
@@ -308,8 +309,8 @@ Matrix6d Loam::increment_covariance(double interval_s) const {
   if (filter_) return increments_.covariance(interval_s);
   // Both ends of a second's increment are foreseen, on average, over half the time from one part of a sweep to the
   // next.
-  return interval_s *
-         (covariance_.per_s() + read_turn_covariance(0.0, 1.0) + 2.0 * steady_->motion_covariance(0.5 * part_s_));
+  return interval_s * (covariance_.per_s() + read_turn_covariance(0.0, 1.0) +
+                       2.0 * (steady_->motion_covariance(0.5 * part_s_) + steady_->bend_covariance()));
 }
 
 /// Of attitude that is read, from one time since the start to another: the bias left in it turns it on and on.

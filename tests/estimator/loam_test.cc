@@ -9,6 +9,7 @@
 
 #include "estimator/estimator.h"
 #include "estimator/geometry/so3.h"
+#include "estimator/lidar/steady_motion.h"
 #include "estimator/lidar/sweep_assembler.h"
 #include "tests/support/box_world.h"
 
@@ -183,6 +184,23 @@ TEST(WithoutAnImu, WhatNeedsOneIsRefused) {
   for (const char* name : {"joint", "imu"}) {
     EXPECT_THROW(make_estimator(name, calibration_of(16, 10.0), config), std::invalid_argument) << name;
   }
+}
+
+/// A walker's hand swings what it holds: sweeps of a second were taken for steady, and a second's motion thought known
+/// five times better than it was.
+TEST(SteadyMotion, LearnsHowRestlessItsCarrierIs) {
+  const auto bend_after = [](double swing) {
+    SteadyMotion motion({}, true);
+    for (int sweep = 0; sweep < 20; ++sweep) {
+      const double rate = 0.1 + (sweep % 2 == 0 ? swing : -swing);
+      motion.follow({}, {exp_so3(Eigen::Vector3d(0.0, rate, 0.0)), Eigen::Vector3d(0.5, 0.0, 0.0)}, 1.0);
+    }
+    return motion.bend_covariance();
+  };
+  EXPECT_LT(bend_after(0.0).diagonal().maxCoeff(), 1e-12);
+  // Changes of 0.4 rad/s about one of three axes; a linear motion over such a sweep ends an eighth of it off.
+  EXPECT_NEAR(std::sqrt(bend_after(0.2)(1, 1)), 0.4 / std::sqrt(3.0) / 8.0, 1e-6);
+  EXPECT_GT(bend_after(0.2)(3, 3), 0.0);  // what turns in the hand changes its velocity in B, too
 }
 
 TEST(EstimatorSettings, OutOfRangeAreRefused) {
