@@ -104,8 +104,8 @@ struct EstimatorConfig {
   bool vision_enabled = true;
   bool lidar_enabled = true;  ///< scan matching; lidar depth for vision stays
   bool remapping = true;      ///< false: the thesis's forced 6-DOF
-  /// What less effort costs (thesis ch. 6): the share of its features that vision follows, (0, 1] (Table 6.3), and by how
-  /// much scan matching is coarser, at least 1 (Table 6.4).
+  /// What less effort costs (thesis ch. 6): the share of its features that vision follows, (0, 1] (Table 6.3), and by
+  /// how much scan matching is coarser, at least 1 (Table 6.4).
   double feature_share = 1.0;
   double resolution_factor = 1.0;
 

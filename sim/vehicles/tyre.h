@@ -56,7 +56,7 @@ class Tyre {
   double rolling_resistance(double spin_rad_s, double load_n, double dt_s);
 
   TyreDesign design_;
-  double twist_rad_ = 0.0;  // of the wheel since it stood
+  double twist_rad_ = 0.0;                                // of the wheel since it stood
   Eigen::Vector2d deflection_ = Eigen::Vector2d::Zero();  // of the contact patch, forward and left [m]
 };
 
