@@ -1,6 +1,5 @@
 #include "tests/proof/degraded_run.h"
 
-#include <cmath>
 #include <opencv2/core/utility.hpp>
 
 #include "estimator/pipeline/vloam.h"
@@ -10,8 +9,6 @@
 
 namespace plumbline {
 namespace {
-
-int fewer(int count, double kept) { return std::max(1, static_cast<int>(std::lround(kept * count))); }
 
 Calibration with_weaker_prior(Calibration calibration, double kept) {
   ImuNoise& imu = calibration.imu;
@@ -23,14 +20,10 @@ Calibration with_weaker_prior(Calibration calibration, double kept) {
 
 Vloam degraded_estimator(const Scenario& scenario, double strength) {
   const double kept = 1.0 - strength;
-  VisionConfig vision;
-  vision.features_per_cell = fewer(vision.features_per_cell, kept);
-  ScanMatcherConfig matcher;
-  matcher.plane_budget = fewer(matcher.plane_budget, kept);
-  matcher.edge_budget = fewer(matcher.edge_budget, kept);
-  matcher.plane_resolution_m /= kept;
-  matcher.edge_resolution_m /= kept;
-  return {with_weaker_prior(calibration_of(scenario.rig), kept), scenario.estimator, vision, matcher};
+  EstimatorConfig config = scenario.estimator;
+  config.feature_share = kept;
+  config.resolution_factor = 1.0 / kept;
+  return {with_weaker_prior(calibration_of(scenario.rig), kept), config};
 }
 
 }  // namespace

@@ -13,8 +13,8 @@ struct DegradedRun {
   std::vector<std::string> overrides;  ///< KEY=VALUE
   std::uint64_t seed = 1;
   std::filesystem::path out;
-  /// In [0, 1): the estimator keeps 1 - strength of its features in images and scans, its map is coarser and its IMU
-  /// prior weaker by 1 / (1 - strength). With 0 it is the estimator itself.
+  /// In [0, 1): the estimator keeps 1 - strength of its features in images and scans, its scan matching is coarser and
+  /// its IMU prior weaker by 1 / (1 - strength). With 0 it is the estimator itself.
   double strength = 0.0;
 };
 
