@@ -1,9 +1,12 @@
 #!/usr/bin/env bash
-# pages_test.sh PROGRAM: looks at the pages of a run, a sweep and a regression, which one small regression makes all of.
+# pages_test.sh PROGRAM THESIS_SUITE SCENARIOS: looks at the pages of a run, a sweep and a regression, which one small
+# regression makes all of, and at that of the thesis's claims.
 set -eu
 
 here="$(cd "$(dirname "$0")" && pwd)"
 program="$1"
+thesis_suite="$2"
+thesis="$3/thesis"
 scratch="$(mktemp -d)"
 trap 'rm -rf "$scratch"' EXIT
 cd "$scratch"
@@ -20,4 +23,9 @@ YAML
 for more in --update ""; do
   "$program" regress suite.yaml --baseline baseline.json --out out $more >/dev/null
 done
-"$here/check_page.sh" out/regress.html out/report.html out/runs/0000/report.html
+# One claim stands for all: to plan their runs takes half a minute.
+{ echo experiments: && sed -n '/id: ch4_hand_lobby/,/^$/p' "$thesis/experiments.yaml"; } |
+  sed "s#scenario: #scenario: $thesis/#" >claims.yaml
+cp "$thesis/results.json" .
+"$thesis_suite" --list --table claims.yaml --results results.json --out claims >/dev/null
+"$here/check_page.sh" out/regress.html out/report.html out/runs/0000/report.html claims/thesis.html

@@ -17,7 +17,7 @@ h1{font-size:28px;line-height:1.2;margin:0;overflow-wrap:anywhere}
 h2{font-size:19px;margin:40px 0 4px}
 p.note{margin:0 0 12px;color:var(--soft);max-width:80ch}
 .badge{white-space:nowrap;font-weight:600;font-size:14px;padding:2px 12px;border-radius:99px;color:#fff;background:var(--soft)}
-td .badge{font-size:12px;padding:1px 9px;white-space:nowrap}a{color:var(--c0)}td a{white-space:nowrap}
+td .badge{font-size:12px;padding:1px 9px;white-space:nowrap}a{color:var(--c0)}td a{white-space:nowrap}.claims td a{white-space:normal}
 .badge.ok{background:#1f7f63}.badge.failed{background:#a66c00}.badge.lost,.badge.error{background:#b81d3a}
 .sub{color:var(--soft)}
 .tiles{display:grid;grid-template-columns:repeat(5,minmax(0,1fr));gap:10px;margin:20px 0 0}

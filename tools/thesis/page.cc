@@ -32,7 +32,8 @@ std::string tiles(const std::vector<RowResult>& rows) {
 
 std::string table(const std::vector<RowResult>& rows) {
   std::string html =
-      "<div class=\"card scroll wide\"><table><tr><th>claim</th><th>thesis</th><th>ours, median</th><th>spread over "
+      "<div class=\"card scroll wide claims\"><table><tr><th>claim</th><th>thesis</th><th>ours, median</th><th>spread "
+      "over "
       "seeds</th><th>seeds</th><th></th></tr>";
   for (const RowResult& row : rows) {
     const Judgement& judgement = row.judgement;
