@@ -97,7 +97,14 @@ struct FurtherCamera {
   double rate_hz = 50.0;
 };
 
-/// What an estimator is told about its sensors: extrinsics, intrinsics and data-sheet noise, nothing else.
+/// A box that holds a part of what carries the sensors, as a robot's description has it.
+struct OwnPart {
+  Pose body_from_part;  ///< the box's middle, and its axes
+  Eigen::Vector3d half_size_m = Eigen::Vector3d::Zero();
+};
+
+/// What an estimator is told about its sensors: extrinsics, intrinsics, data-sheet noise and what of their carrier may
+/// be in view, nothing else.
 struct Calibration {
   double imu_rate_hz = 200.0;
   ImuNoise imu;
@@ -116,6 +123,7 @@ struct Calibration {
   double lidar_range_sigma_m = 0.015;
   double lidar_min_range_m = 0.5;
   double lidar_max_range_m = 100.0;
+  std::vector<OwnPart> own_body;  ///< returns from within these boxes are not of the world
 };
 
 }  // namespace plumbline

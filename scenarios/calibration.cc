@@ -1,5 +1,13 @@
 #include "scenarios/calibration.h"
 
+#include <mujoco/mujoco.h>
+
+#include <Eigen/Geometry>
+
+#include "sim/geom_mesh.h"
+#include "sim/vehicles/vehicle.h"
+#include "sim/world.h"
+
 namespace plumbline {
 
 namespace {
@@ -20,6 +28,23 @@ void add_cameras(const RigConfig& rig, const Pose& imu_from_pack, Calibration& c
     calibration.further_cameras.push_back({kDepthCamera, imu_from_pack * depth->pack_from_camera,
                                            intrinsics_of(depth->model), depth->model.rate_hz / rig.decimation});
   }
+}
+
+/// In the vehicle's frame: a box about every geom, along the geom's axes.
+std::vector<OwnPart> parts_of(const World& vehicle) {
+  constexpr double kTolerance_m = 1e-3;
+  std::vector<OwnPart> parts;
+  for (int geom = 0; geom < vehicle.model().ngeom; ++geom) {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3f& vertex : mesh_of_geom(vehicle.model(), geom, kTolerance_m, 0.0).vertices) {
+      box.extend(vertex.cast<double>());
+    }
+    if (box.isEmpty()) continue;
+    OwnPart part{vehicle.pose_of_geom(geom), box.sizes() / 2.0};
+    part.body_from_part.translation = part.body_from_part * box.center();
+    parts.push_back(part);
+  }
+  return parts;
 }
 
 }  // namespace
@@ -46,6 +71,18 @@ Calibration calibration_of(const RigConfig& rig) {
   calibration.lidar_range_sigma_m = rig.lidar.accuracy_sigma_m;
   calibration.lidar_min_range_m = rig.lidar.min_range_m;
   calibration.lidar_max_range_m = rig.lidar.max_range_m;
+  return calibration;
+}
+
+Calibration calibration_of(const Scenario& scenario) {
+  Calibration calibration = calibration_of(scenario.rig);
+  if (!scenario.rig.own_body || scenario.motion.vehicle.empty()) return calibration;
+  const VehicleInfo& vehicle = vehicle_named(scenario.motion.vehicle);
+  if (vehicle.body == nullptr) return calibration;
+  calibration.own_body = parts_of(World::from_scene(vehicle.body(), scenario.seed));
+  const Pose imu_from_pack{Eigen::Quaterniond::Identity(), -scenario.rig.imu.position_in_body};
+  const Pose body_from_vehicle = imu_from_pack * scenario.rig.vehicle_from_pack.inverse();
+  for (OwnPart& part : calibration.own_body) part.body_from_part = body_from_vehicle * part.body_from_part;
   return calibration;
 }
 

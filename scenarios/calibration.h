@@ -17,4 +17,7 @@ Pose pack_from_right_camera(const RigConfig& rig);
 /// data sheets' noise. Nothing that a seed draws.
 Calibration calibration_of(const RigConfig& rig);
 
+/// The same, with the parts of the vehicle that its sensors see, from the vehicle's own description.
+Calibration calibration_of(const Scenario& scenario);
+
 }  // namespace plumbline

@@ -95,9 +95,8 @@ std::unique_ptr<OwnBody> make_own_body(const Scenario& scenario) {
 
 RunRecord run_session(const Scenario& scenario, const World& world, const RayScene& rays,
                       const SessionOptions& options) {
-  const auto estimator = as_input(scenario, [&] {
-    return make_estimator(scenario.estimator_name, calibration_of(scenario.rig), scenario.estimator);
-  });
+  const auto estimator = as_input(
+      scenario, [&] { return make_estimator(scenario.estimator_name, calibration_of(scenario), scenario.estimator); });
   return run_session(scenario, world, rays, options, *estimator);
 }
 

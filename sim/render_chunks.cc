@@ -19,16 +19,11 @@ constexpr double kLargeCell_m = 4.0 * kCell_m;
 constexpr double kCurveTolerance_m = 0.005;
 const Eigen::Vector3f kRec709(0.2126F, 0.7152F, 0.0722F);
 
-Pose pose_of_geom(const World& world, int geom) {
-  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> rotation(world.data().geom_xmat + 9 * geom);
-  return {Eigen::Quaterniond(rotation), Eigen::Map<const Eigen::Vector3d>(world.data().geom_xpos + 3 * geom)};
-}
-
 /// Visits the triangles of a geom where it stands.
 template <typename Visit>
 void for_each_triangle(const World& world, int geom, double plane_extent_m, Visit visit) {
   const TriangleMesh mesh = mesh_of_geom(world.model(), geom, kCurveTolerance_m, plane_extent_m);
-  const Pose pose = pose_of_geom(world, geom);
+  const Pose pose = world.pose_of_geom(geom);
   const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
   std::vector<Eigen::Vector3d> vertices;
   vertices.reserve(mesh.vertices.size());

@@ -252,6 +252,11 @@ void World::set_light_level(double lux) {
   for (Lamp& lamp : lamps_) lamp.intensity_cd *= factor;
 }
 
+Pose World::pose_of_geom(int geom) const {
+  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> rotation(data_->geom_xmat + 9L * geom);
+  return {Eigen::Quaterniond(rotation), Eigen::Map<const Eigen::Vector3d>(data_->geom_xpos + 3L * geom)};
+}
+
 void World::set_sun(double lux) {
   check_lux("sun", lux);
   sun_.lux = lux;

@@ -126,6 +126,8 @@ class World {
   const mjData_& data() const { return *data_; }
   mjData_& data() { return *data_; }
   int rig_body() const { return rig_body_; }
+  /// world_from_geom after mj_forward at the initial state.
+  Pose pose_of_geom(int geom) const;
 
   const std::vector<Material>& materials() const { return materials_; }
   /// Index into materials() of a geom.

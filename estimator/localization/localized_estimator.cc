@@ -33,9 +33,10 @@ std::variant<MapLocalizer, ParticleFilter> make_localizer(const Calibration& cal
   return MapLocalizer(calibration, map, config.map_from_start, config.remapping);
 }
 
-MessageUse scans_alone() {
+MessageUse scans_alone(const Calibration& calibration) {
   MessageUse use;
   use.lidar = true;
+  use.own_body = OwnBodyMask(calibration);
   use.imu = false;
   return use;
 }
@@ -47,7 +48,7 @@ LocalizedEstimator::LocalizedEstimator(std::unique_ptr<Estimator> odometry, cons
     : odometry_(std::move(odometry)),
       calibration_(calibration),
       period_ns_(period_ns(config)),
-      scans_(scans_alone()),
+      scans_(scans_alone(calibration)),
       stack_(period_ns_),
       localizer_(make_localizer(calibration, map, config)),
       correction_(config.map_from_start, std::min(kLongestBlend_s, 1.0 / config.rate_hz)),

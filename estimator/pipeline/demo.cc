@@ -222,8 +222,8 @@ Odometry Demo::output(std::int64_t stamp_ns) {
   const double since_output_s = output_ns_ == 0 ? 0.0 : seconds_between(output_ns_, stamp_ns);
   odometry.increment_covariance = since_output_s * covariance_.per_s();
   output_ns_ = stamp_ns;
-  odometry.lost = (fixed_ns_ != 0 && seconds_between(fixed_ns_, stamp_ns) > kLost_s) ||
-                  odometry.covariance.bottomRightCorner<3, 3>().trace() > kLostSigma_m * kLostSigma_m;
+  const bool drifted = lost_.lost(odometry);
+  odometry.lost = drifted || (fixed_ns_ != 0 && seconds_between(fixed_ns_, stamp_ns) > kLost_s);
   return odometry;
 }
 

@@ -8,6 +8,7 @@
 #include "estimator/geometry/interpolation.h"
 #include "estimator/lidar/scan_matcher.h"
 #include "estimator/lidar/sweep_refinement.h"
+#include "estimator/pipeline/lost_watch.h"
 #include "estimator/pipeline/matched_covariance.h"
 #include "estimator/pipeline/message_gate.h"
 #include "estimator/pipeline/transform_integration.h"
@@ -83,6 +84,7 @@ class Demo final : public Estimator {
   double path_m_ = 0.0;
   Pose world_from_last_match_;
 
+  LostWatch lost_;
   std::vector<Odometry> outputs_;
   std::vector<ModuleHealth> health_;
 };

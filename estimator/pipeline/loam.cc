@@ -27,9 +27,10 @@ constexpr double kOdometrySigma_m = 0.1;
 constexpr double kOdometrySigma_rad = 0.02;
 constexpr double kReadAttitudeSigma_rad = 1e-6;  // attitude that is read is beyond correction
 
-MessageUse use_of(ImuUse imu) {
+MessageUse use_of(const Calibration& calibration, ImuUse imu) {
   MessageUse use;
   use.lidar = true;
+  use.own_body = OwnBodyMask(calibration);
   use.imu = imu != ImuUse::kNone;
   return use;
 }
@@ -49,7 +50,7 @@ Loam::Loam(const Calibration& calibration, const EstimatorConfig& config, ImuUse
       imu_(imu),
       mapping_(config.lidar_enabled),
       remapping_(config.remapping),
-      gate_(use_of(imu)),
+      gate_(use_of(calibration, imu)),
       initializer_(calibration),
       odometry_(calibration, weak_directions(config.remapping)),
       matcher_(calibration, scan_matcher_config(config), weak_directions(config.remapping)) {}
@@ -343,7 +344,7 @@ PoseTrack Loam::corrected_track() const {
   return result;
 }
 
-Odometry Loam::output(std::int64_t stamp_ns) const {
+Odometry Loam::output(std::int64_t stamp_ns) {
   Odometry odometry;
   odometry.stamp_ns = stamp_ns;
   if (!started()) {
@@ -355,8 +356,7 @@ Odometry Loam::output(std::int64_t stamp_ns) const {
   odometry.gyro_bias = state().gyro_bias;
   odometry.accel_bias = state().accel_bias;
   odometry.covariance = pose_covariance(stamp_ns);
-  odometry.lost = odometry.covariance.bottomRightCorner<3, 3>().trace() > kLostSigma_m * kLostSigma_m ||
-                  !state().world_from_body.translation.allFinite();
+  odometry.lost = lost_.lost(odometry);
   return odometry;
 }
 

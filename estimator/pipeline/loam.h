@@ -13,6 +13,7 @@
 #include "estimator/lidar/sweep_assembler.h"
 #include "estimator/lidar/sweep_odometry.h"
 #include "estimator/pipeline/increment_watch.h"
+#include "estimator/pipeline/lost_watch.h"
 #include "estimator/pipeline/matched_covariance.h"
 #include "estimator/pipeline/message_gate.h"
 
@@ -73,7 +74,7 @@ class Loam final : public Estimator {
   Pose correction(std::int64_t stamp_ns) const;
   Pose corrected(const Pose& world_from_body, std::int64_t stamp_ns) const;
   PoseTrack corrected_track() const;
-  Odometry output(std::int64_t stamp_ns) const;
+  Odometry output(std::int64_t stamp_ns);
 
   Calibration calibration_;
   ImuUse imu_;
@@ -103,6 +104,7 @@ class Loam final : public Estimator {
   double path_m_ = 0.0;
   Eigen::Vector3d last_position_ = Eigen::Vector3d::Zero();
 
+  LostWatch lost_;
   std::vector<Odometry> outputs_;
   std::vector<ModuleHealth> health_;
 };

@@ -57,6 +57,7 @@ MessageUse message_use(const Calibration& calibration, const EstimatorConfig& co
     }
   }
   use.lidar = calibration.has_lidar;
+  use.own_body = OwnBodyMask(calibration);
   use.imu = config.imu_enabled;
   return use;
 }
@@ -158,6 +159,8 @@ void MessageGate::admit(const LidarScan& scan) {
   if (same_points(usable.points, last_points_)) return drop(Module::kLidar, "repeats the last");
   last_scan_ns_ = scan.end_ns;
   last_points_ = usable.points;
+  std::erase_if(usable.points, [this](const LidarPoint& point) { return use_.own_body.covers(point.position); });
+  if (usable.points.empty()) return drop(Module::kLidar, "nothing seen");
   held_.emplace(scan.end_ns, std::move(usable));
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "estimator/estimator.h"
+#include "estimator/lidar/own_body_mask.h"
 #include "estimator/vision/point_frame.h"
 
 /// The border between drivers and a pipeline: checks every message, puts camera, depth and lidar messages in order, and
@@ -26,7 +27,8 @@ struct MessageUse {
   std::map<int, GateImage> cameras;        ///< grey images, by camera id
   std::map<int, GateImage> depth_cameras;  ///< depth images, by camera id
   bool lidar = false;
-  bool imu = true;  ///< false: samples serve as a clock only, their readings are neither read nor checked
+  OwnBodyMask own_body;  ///< returns that it covers are left out
+  bool imu = true;       ///< false: samples serve as a clock only, their readings are neither read nor checked
 };
 
 /// Grey images of camera 0 and grey or depth images of the further ones, where vision is on; the lidar where there is
@@ -50,7 +52,8 @@ class MessageGate {
   /// "repeats the last", whose driver is stuck, since noise makes no two alike; "too long", a scan over
   /// kLongestScan_ns; "before the start", without any IMU sample yet; "late", kLongestDelay_ns behind the IMU; "no IMU
   /// to go with", kLongestLead_ns ahead of it or more waiting than kMostWaiting. Returns of a scan that are not finite,
-  /// or farther than any lidar sees, are left out of it.
+  /// or farther than any lidar sees, or from the carrier itself, are left out of it; one of which nothing is left is
+  /// dropped as "nothing seen".
   void admit(const CameraFrame& frame);
   void admit(const PointFrame& frame);
   void admit(const DepthFrame& frame);

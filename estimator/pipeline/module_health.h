@@ -8,9 +8,6 @@
 
 namespace plumbline {
 
-/// An estimator stops believing its position when its own standard deviation exceeds this [m].
-inline constexpr double kLostSigma_m = 10.0;
-
 /// Wall time since its making.
 class StopWatch {
  public:

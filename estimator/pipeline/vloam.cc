@@ -230,7 +230,7 @@ void Vloam::report(std::int64_t stamp_ns, Module module, const SolveResult& solv
   health_.push_back(health_of(stamp_ns, module, solved, predicted, seconds));
 }
 
-Odometry Vloam::output(std::int64_t stamp_ns) const {
+Odometry Vloam::output(std::int64_t stamp_ns) {
   Odometry odometry;
   odometry.stamp_ns = stamp_ns;
   if (!filter_) {
@@ -243,8 +243,7 @@ Odometry Vloam::output(std::int64_t stamp_ns) const {
   odometry.gyro_bias = state.gyro_bias;
   odometry.accel_bias = state.accel_bias;
   odometry.covariance = filter_->pose_covariance();
-  odometry.lost = odometry.covariance.bottomRightCorner<3, 3>().trace() > kLostSigma_m * kLostSigma_m ||
-                  !state.world_from_body.translation.allFinite();
+  odometry.lost = lost_.lost(odometry);
   return odometry;
 }
 

@@ -11,6 +11,7 @@
 #include "estimator/lidar/scan_matcher.h"
 #include "estimator/lidar/sweep_assembler.h"
 #include "estimator/pipeline/increment_watch.h"
+#include "estimator/pipeline/lost_watch.h"
 #include "estimator/pipeline/message_gate.h"
 #include "estimator/vision/visual_odometry.h"
 
@@ -61,7 +62,7 @@ class Vloam final : public Estimator {
   template <typename Update>
   void correct(Update&& update);
   void report(std::int64_t stamp_ns, Module module, const SolveResult& solved, const Pose& predicted, double seconds);
-  Odometry output(std::int64_t stamp_ns) const;
+  Odometry output(std::int64_t stamp_ns);
 
   Calibration calibration_;
   EstimatorConfig config_;
@@ -86,6 +87,7 @@ class Vloam final : public Estimator {
 
   IncrementWatch increments_;
 
+  LostWatch lost_;
   std::vector<Odometry> outputs_;
   std::vector<ModuleHealth> health_;
 };

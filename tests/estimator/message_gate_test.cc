@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <numbers>
+
+#include "estimator/geometry/so3.h"
 
 namespace plumbline {
 namespace {
@@ -169,6 +172,29 @@ TEST(MessageGate, LeavesReturnsOutThatCannotBe) {
   const auto message = gate.next(kSecond);
   ASSERT_TRUE(message);
   EXPECT_EQ(std::get<LidarScan>(*message).points.size(), 1u);
+}
+
+/// What carries the lidar moves with it: matched, its returns would say that nothing moves.
+TEST(MessageGate, LeavesReturnsFromTheCarrierOut) {
+  Calibration calibration;
+  calibration.body_from_lidar = {exp_so3({0.0, 0.0, std::numbers::pi / 2.0}), {0.0, 0.0, 1.0}};
+  calibration.own_body = {{{exp_so3({0.0, 0.0, 0.5}), {0.0, 0.4, 0.9}}, {0.1, 0.2, 0.3}}};
+  MessageGate gate = gate_at(kSecond, message_use(calibration, {}));
+  LidarScan scan = scan_until(kSecond);
+  scan.points.resize(3);
+  scan.points[0].position = {0.4F, 0.0F, -0.1F};   // the lidar's x axis is the body's y axis
+  scan.points[1].position = {0.4F, 0.0F, -0.6F};   // below it
+  scan.points[2].position = {-0.4F, 0.0F, -0.1F};  // on the other side
+  gate.admit(scan);
+  const auto message = gate.next(kSecond);
+  ASSERT_TRUE(message);
+  const std::vector<LidarPoint>& left = std::get<LidarScan>(*message).points;
+  ASSERT_EQ(left.size(), 2U);
+  EXPECT_EQ(left[0].position, scan.points[1].position);
+  LidarScan later = scan_until(kSecond + 100 * kMillisecond);
+  later.points.assign(1, scan.points[0]);
+  gate.admit(later);
+  EXPECT_EQ(gate.counts(Module::kLidar).dropped.at("nothing seen"), 1);
 }
 
 TEST(MessageGate, WhatWasMeasuredBeforeTheStartIsDropped) {

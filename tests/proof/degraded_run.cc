@@ -23,7 +23,7 @@ Vloam degraded_estimator(const Scenario& scenario, double strength) {
   EstimatorConfig config = scenario.estimator;
   config.feature_share = kept;
   config.resolution_factor = 1.0 / kept;
-  return {with_weaker_prior(calibration_of(scenario.rig), kept), config};
+  return {with_weaker_prior(calibration_of(scenario), kept), config};
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ class FlightSession : public ::testing::Test {
     options.threads = threads;
     options.world_from_estimate = world_from_estimate;
     if (!spoil) return run_session(scenario, world, rays, options);
-    SpoiltEstimator estimator(make_estimator(scenario.estimator_name, calibration_of(scenario.rig), scenario.estimator),
+    SpoiltEstimator estimator(make_estimator(scenario.estimator_name, calibration_of(scenario), scenario.estimator),
                               spoil);
     return run_session(scenario, world, rays, options, estimator);
   }

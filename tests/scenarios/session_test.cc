@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "estimator/lidar/own_body_mask.h"
 #include "scenarios/calibration.h"
 #include "tests/scenarios/body_trajectory.h"
 #include "tests/scenarios/room.h"
@@ -276,6 +277,33 @@ TEST(CalibrationOfARig, HoldsTheMountingAndTheDataSheetOnly) {
   EXPECT_EQ(calibration.body_from_lidar.translation.z(), 0.1);
   EXPECT_NEAR(calibration.camera_noise.read_noise_dn, 29.0 / 85.0, 1e-12);
   EXPECT_EQ(calibration.camera.width, 640);
+}
+
+/// A person who carries a scanner that turns all about has its back full of returns from trunk, head and arms.
+TEST_F(Session, TheCalibrationKnowsWhatOfTheVehicleIsInView) {
+  const Scenario scenario = load({"motion.vehicle=walker", "rig.lidar.model=utm30lx_spinning", "rig.pitch_deg=20",
+                                  "rig.lidar.effects.mixed_pixels=false"});
+  const OwnBodyMask mask(calibration_of(scenario));
+  const World world = make_world(scenario);
+  const RayScene rays(world);
+  struct NearReturns : RecordingEstimator {
+    void add(const LidarScan& scan) override {
+      for (const LidarPoint& point : scan.points) {
+        if (point.position.norm() < 0.7F) (mask.covers(point.position) ? covered : open)++;
+      }
+    }
+    using RecordingEstimator::add;
+    explicit NearReturns(const OwnBodyMask& of) : mask(of) {}
+    const OwnBodyMask& mask;
+    int covered = 0;
+    int open = 0;
+  } near(mask);
+  run_session(scenario, world, rays, {}, near);
+  EXPECT_GT(near.covered, 1'000);
+  EXPECT_EQ(near.open, 0) << "the room's walls are metres away";
+
+  EXPECT_TRUE(calibration_of(load({"motion.vehicle=walker", "rig.own_body=false"})).own_body.empty());
+  EXPECT_TRUE(calibration_of(load()).own_body.empty());
 }
 
 }  // namespace

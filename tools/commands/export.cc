@@ -35,7 +35,7 @@ int export_scenario(const ExportArguments& arguments) {
   cv::setNumThreads(1);
   directory.open();
   catch_interrupts();
-  const auto writer = make_dataset_writer(arguments.format, directory.staging(), calibration_of(scenario.rig));
+  const auto writer = make_dataset_writer(arguments.format, directory.staging(), calibration_of(scenario));
 
   ProgressLine line(scenario.name);
   SessionOptions options;

@@ -74,7 +74,7 @@ RunRecord simulate(const RunArguments& arguments, const Scenario& scenario, cons
       std::optional<Pose> start;
       if (arguments.map.start.empty() && map->site_from_map) start = world_from_imu_at_start(scenario, world, rays);
       estimator =
-          localize(std::move(estimator), *map, arguments.map, calibration_of(scenario.rig), scenario.estimator, start);
+          localize(std::move(estimator), *map, arguments.map, calibration_of(scenario), scenario.estimator, start);
     }
     RunRecord record = run_session(scenario, world, rays, options, *estimator);
     record.prior_map = !map ? "" : !arguments.map.map.empty() ? arguments.map.map : scenario.survey->string();

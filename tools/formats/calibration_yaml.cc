@@ -21,7 +21,8 @@ constexpr Range kImageSide{1.0, 16'384.0};
 constexpr Range kMostCameraId{0.0, 1e6};
 constexpr Range kRings{1.0, 65'536.0};
 constexpr Range kUnit{-1.001, 1.001};
-constexpr std::size_t kMostFurtherCameras = 64;
+constexpr Range kHalfSize{1e-6, 1e2};
+constexpr std::size_t kMostListed = 64;
 
 /// Writes fields as YAML in block style.
 class Writer {
@@ -97,8 +98,8 @@ class Reader {
     const ConfigNode* node = keys_.find(key);
     if (node == nullptr) return;
     const std::string path = keys_.path_of(key);
-    if (list_of(*node, path).size() > kMostFurtherCameras) {
-      fail_at(*node, path, "at most " + std::to_string(kMostFurtherCameras));
+    if (list_of(*node, path).size() > kMostListed) {
+      fail_at(*node, path, "at most " + std::to_string(kMostListed));
     }
     for (const ConfigNode& item : node->items) {
       ConfigReader below(item, path);
@@ -191,6 +192,11 @@ void fields(Format& format, Calibration& calibration) {
   if (calibration.has_lidar) {
     format.section("lidar", [&](Format& below) { lidar_fields(below, calibration); });
   }
+  format.list("own_body", calibration.own_body, [](Format& below, OwnPart& part) {
+    pose_fields(below, "body_from_part", part.body_from_part);
+    Eigen::Vector3d& half = part.half_size_m;
+    below.numbers("half_size_m", {&half.x(), &half.y(), &half.z()}, kHalfSize);
+  });
 }
 
 /// A rotation typed in with few digits is brought to unit length; one that is as near as rounding allows is left alone.
@@ -229,6 +235,9 @@ Calibration read_calibration_yaml(const std::string& text, const std::string& or
   make_unit(calibration.body_from_lidar.rotation, origin + ": lidar.body_from_lidar");
   for (FurtherCamera& camera : calibration.further_cameras) {
     make_unit(camera.body_from_camera.rotation, origin + ": further_cameras.body_from_camera");
+  }
+  for (OwnPart& part : calibration.own_body) {
+    make_unit(part.body_from_part.rotation, origin + ": own_body.body_from_part");
   }
   return calibration;
 }

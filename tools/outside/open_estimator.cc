@@ -35,7 +35,7 @@ std::unique_ptr<Estimator> open_estimator(const std::string& name, const fs::pat
 }
 
 std::unique_ptr<Estimator> open_estimator(const Scenario& scenario) {
-  return open_estimator(scenario.estimator_name, scenario.estimator_directory, calibration_of(scenario.rig),
+  return open_estimator(scenario.estimator_name, scenario.estimator_directory, calibration_of(scenario),
                         scenario.estimator);
 }
 

@@ -22,6 +22,7 @@ Calibration full_calibration() {
   calibration.body_from_lidar = {exp_so3({0.0, 0.5, 0.0}), {0.0, -0.0, 0.1}};
   calibration.further_cameras = {{1, calibration.body_from_camera.inverse(), calibration.camera, 25.0},
                                  {2, Pose{}, {320, 240, 300, 300, 160, 120, {}}, 30.0}};
+  calibration.own_body = {{{exp_so3({0.0, 0.0, 0.7}), {-0.3, 0.0, 1.0 / 3.0}}, {0.1, 0.2, 0.3}}};
   return calibration;
 }
 
@@ -51,6 +52,8 @@ TEST(CalibrationYaml, GivesEveryBitBack) {
   EXPECT_EQ(found.camera.distortion.p2, -2e-5);
   ASSERT_EQ(found.further_cameras.size(), 2U);
   EXPECT_EQ(found.further_cameras[1].camera_id, 2);
+  ASSERT_EQ(found.own_body.size(), 1U);
+  EXPECT_EQ(found.own_body[0].half_size_m.z(), 0.3);
 }
 
 TEST(CalibrationYaml, SensorsThatAreNotThereAreLeftOut) {
