@@ -5,7 +5,7 @@
 namespace plumbline {
 namespace {
 
-// A carrier gives, and extrinsics are not exact.
+// A carrier is not quite rigid, and extrinsics are not exact.
 constexpr double kMargin_m = 0.03;
 constexpr double kMarginSigmas = 3.0;
 
