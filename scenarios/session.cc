@@ -5,6 +5,8 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "scenarios/as_input.h"
 #include "scenarios/calibration.h"
@@ -103,20 +105,37 @@ RunRecord run_session(const Scenario& scenario, const World& world, const RaySce
 RunRecord run_session(const Scenario& scenario, const World& world, const RayScene& rays, const SessionOptions& options,
                       Estimator& estimator) {
   if (scenario.motion.closed_loop.enabled) return run_flight(scenario, world, rays, options, estimator);
+  return std::move(run_session(scenario, world, rays, options, std::vector<Estimator*>{&estimator}).front());
+}
+
+std::vector<RunRecord> run_session(const Scenario& scenario, const World& world, const RayScene& rays,
+                                   const SessionOptions& options, const std::vector<Estimator*>& estimators) {
   const Trajectory world_from_body = make_body_trajectory(scenario, world, rays);
-  Recorder recorder(estimator, 0, world_from_body.end_ns(), options.on_image);
+  std::vector<Recorder> recorders;
+  for (Estimator* estimator : estimators) {
+    recorders.emplace_back(*estimator, 0, world_from_body.end_ns(), options.on_image);
+  }
   const std::unique_ptr<OwnBody> own_body = make_own_body(scenario);
   const Surroundings surroundings{world, rays, own_body.get()};
   const bool whole = run(scenario, surroundings, world_from_body, options,
-                         {[&](std::int64_t stamp_ns, const Pose& pose) { recorder.add_truth(stamp_ns, pose); },
+                         {[&](std::int64_t stamp_ns, const Pose& pose) {
+                            for (Recorder& recorder : recorders) recorder.add_truth(stamp_ns, pose);
+                          },
                           [&](const SensorMessage& message) {
-                            recorder.deliver(message);
-                            return !recorder.faulted();
+                            bool goes_on = false;
+                            for (Recorder& recorder : recorders) {
+                              if (!recorder.faulted()) recorder.deliver(message);
+                              goes_on |= !recorder.faulted();
+                            }
+                            return goes_on;
                           }});
-  if (!whole) recorder.set_fault(kInterrupted);
-  RunRecord record = recorder.finish();
-  colour_map(scenario, surroundings, world_from_body, record);
-  return record;
+  std::vector<RunRecord> records;
+  for (Recorder& recorder : recorders) {
+    if (!whole) recorder.set_fault(kInterrupted);
+    records.push_back(recorder.finish());
+    colour_map(scenario, surroundings, world_from_body, records.back());
+  }
+  return records;
 }
 
 bool simulate(const Scenario& scenario, const World& world, const RayScene& rays, const SessionOptions& options,

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "scenarios/recording.h"
 #include "scenarios/run_record.h"
@@ -64,6 +65,11 @@ RunRecord run_session(const Scenario& scenario, const World& world, const RaySce
 /// The same with an estimator of the caller's.
 RunRecord run_session(const Scenario& scenario, const World& world, const RayScene& rays, const SessionOptions& options,
                       Estimator& estimator);
+
+/// The same with several estimators on one simulation, each as if it were alone. A fault ends the run of the estimator
+/// whose it is. @throws InputError for a flight in closed loop, which only one can fly
+std::vector<RunRecord> run_session(const Scenario& scenario, const World& world, const RayScene& rays,
+                                   const SessionOptions& options, const std::vector<Estimator*>& estimators);
 
 /// Drives an estimator with recorded messages. Of the truth, what lies within the messages' span is kept.
 RunRecord run_recording(const Recording& recording, const SessionOptions& options, Estimator& estimator);

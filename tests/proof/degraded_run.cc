@@ -1,6 +1,8 @@
 #include "tests/proof/degraded_run.h"
 
+#include <memory>
 #include <opencv2/core/utility.hpp>
+#include <vector>
 
 #include "estimator/pipeline/vloam.h"
 #include "scenarios/calibration.h"
@@ -28,22 +30,31 @@ Vloam degraded_estimator(const Scenario& scenario, double strength) {
 
 }  // namespace
 
-int make_degraded_run(const DegradedRun& run) {
-  const Scenario scenario = load_scenario(run.scenario, run.overrides, run.seed);
-  RunDirectory directory(run.out);
+int make_degraded_runs(const DegradedRuns& runs) {
+  const Scenario scenario = load_scenario(runs.scenario, runs.overrides, runs.seed);
   const World world = make_world(scenario);
   const RayScene rays(world);
   cv::setNumThreads(1);
-  Vloam estimator = degraded_estimator(scenario, run.strength);
-  directory.open();
+  std::vector<std::unique_ptr<Vloam>> estimators;
+  std::vector<Estimator*> driven;
+  for (const Degradation& degradation : runs.degradations) {
+    estimators.push_back(std::make_unique<Vloam>(degraded_estimator(scenario, degradation.strength)));
+    driven.push_back(estimators.back().get());
+  }
   SessionOptions options;
   options.threads = 1;
-  const RunRecord record = run_session(scenario, world, rays, options, estimator);
-  const JudgedRun judged = write_run(
-      directory, scenario, record,
-      [&](const Eigen::Vector3d& point) { return rays.distance_to_surface(point, kMapErrorLimit); },
-      make_provenance(scenario, options.threads));
-  return judged.verdict.exit_code();
+  const std::vector<RunRecord> records = run_session(scenario, world, rays, options, driven);
+  std::vector<int> exit_codes;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    RunDirectory directory(runs.degradations[i].out);
+    directory.open();
+    const JudgedRun judged = write_run(
+        directory, scenario, records[i],
+        [&](const Eigen::Vector3d& point) { return rays.distance_to_surface(point, kMapErrorLimit); },
+        make_provenance(scenario, options.threads));
+    exit_codes.push_back(judged.verdict.exit_code());
+  }
+  return exit_codes.front();
 }
 
 }  // namespace plumbline

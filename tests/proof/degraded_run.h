@@ -7,18 +7,22 @@
 
 namespace plumbline {
 
-/// One run of the real estimator made worse, written as `plumbline run` writes its own.
-struct DegradedRun {
+/// The real estimator, made worse: it keeps 1 - strength of its features in images and scans, its scan matching is
+/// coarser and its IMU prior weaker by 1 / (1 - strength). With 0 it is the estimator itself.
+struct Degradation {
+  double strength = 0.0;      ///< in [0, 1)
+  std::filesystem::path out;  ///< where its run goes, as `plumbline run` writes its own
+};
+
+/// One simulation, driving the estimator degraded in several ways at once.
+struct DegradedRuns {
   std::string scenario;
   std::vector<std::string> overrides;  ///< KEY=VALUE
   std::uint64_t seed = 1;
-  std::filesystem::path out;
-  /// In [0, 1): the estimator keeps 1 - strength of its features in images and scans, its scan matching is coarser and
-  /// its IMU prior weaker by 1 / (1 - strength). With 0 it is the estimator itself.
-  double strength = 0.0;
+  std::vector<Degradation> degradations;  ///< at least one
 };
 
-/// @returns the program's exit code
-int make_degraded_run(const DegradedRun& run);
+/// @returns the exit code of the first one's run
+int make_degraded_runs(const DegradedRuns& runs);
 
 }  // namespace plumbline

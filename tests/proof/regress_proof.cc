@@ -28,38 +28,54 @@ struct ProofArguments {
   int jobs = 1;
   int comparisons = 4000;
   bool judge_only = false;
-  std::vector<double> strengths;  ///< of degradation; each has a bank of its own
+  std::vector<double> strengths;  ///< of degradation; each has a bank of its own, made from the same simulations
 };
 
 std::string bank_name(double strength) { return strength == 0.0 ? "itself" : "degraded_" + fixed_text(strength, 3); }
 
-/// A run as a child process of ours; see DegradedRun.
-RunCommand degraded_command(const SuiteFile& suite, double strength) {
+/// A bank's runs: those of one strength.
+struct DegradedBank {
+  double strength = 0.0;
+  fs::path root;
+};
+
+/// A run as a child process of ours, which makes it for all these banks from one simulation; see DegradedRuns.
+RunCommand command_for(const SuiteFile& suite, const std::vector<DegradedBank>& banks) {
   const std::string program = fs::read_symlink("/proc/self/exe").string();
-  return [&suite, strength, program](const PlannedRun& run, const fs::path& directory) {
+  return [&suite, banks, program](const PlannedRun& run, const fs::path& directory) {
     std::vector<std::string> command{program, "run"};
     for (const SuiteScenario& scenario : suite.scenarios) {
       if (scenario.name != suite_scenario_of(run)) continue;
       command.push_back(scenario.path.string());
       for (const std::string& override : scenario.fixed) command.insert(command.end(), {"--set", override});
     }
-    command.insert(command.end(), {"--seed", std::to_string(run.seed), "--out", directory.string(), "--strength",
-                                   fixed_text(strength, 6)});
+    command.insert(command.end(), {"--seed", std::to_string(run.seed)});
+    for (const DegradedBank& bank : banks) {
+      const fs::path out = bank.root == banks.front().root ? directory : SweepPaths{bank.root}.run(run.key);
+      command.insert(command.end(), {"--strength", fixed_text(bank.strength, 6), "--out", out.string()});
+    }
     return command;
   };
 }
 
-/// Makes what is missing of a bank. A run's own directory is dropped once its result is stored: hundreds of maps
-/// would fill the disk.
-bool fill_bank(const SuiteFile& suite, const SweepPlan& plan, const fs::path& root, double strength, int jobs) {
-  SweepDirectory directory(root, plan, SweepDirectory::Mode::kResume);
-  ProgressLine line(bank_name(strength));
-  const RunCommand command = degraded_command(suite, strength);
-  const RunCommand tidy_command = [&](const PlannedRun& run, const fs::path& target) {
+/// Makes what is missing of the first bank and, as it goes, the same runs of the others, which take them over when
+/// their turn comes. A run's own directory is dropped once its result is stored: hundreds of maps would fill the disk.
+bool fill_bank(const SuiteFile& suite, const SweepPlan& plan, const std::vector<DegradedBank>& banks, int jobs) {
+  const DegradedBank& bank = banks.front();
+  SweepDirectory directory(bank.root, plan, SweepDirectory::Mode::kResume);
+  const auto remove_stored = [&] {
     for (const StoredRun& stored : directory.store().runs()) fs::remove_all(directory.paths().run(stored.key));
+  };
+  ProgressLine line(bank_name(bank.strength));
+  const RunCommand command = command_for(suite, banks);
+  const RunCommand tidy_command = [&](const PlannedRun& run, const fs::path& target) {
+    remove_stored();
     return command(run, target);
   };
-  return make_runs(plan, directory, tidy_command, {jobs, {}, [&line](double share) { line.update(share); }});
+  const bool whole =
+      make_runs(plan, directory, tidy_command, {jobs, {}, [&line](double share) { line.update(share); }});
+  remove_stored();
+  return whole;
 }
 
 std::vector<MeasuredRun> bank_of(const fs::path& root) {
@@ -140,12 +156,11 @@ int prove(const ProofArguments& arguments) {
   if (bank.seeds.size() < own_seeds) throw InputError("--seeds: fewer than the suite itself has");
   const fs::path out = fs::absolute(arguments.out);
   const SweepPlan plan = suite_plan(bank, {});
-  std::vector<double> strengths{0.0};
-  strengths.insert(strengths.end(), arguments.strengths.begin(), arguments.strengths.end());
+  std::vector<DegradedBank> banks{{0.0, out / bank_name(0.0)}};
+  for (const double strength : arguments.strengths) banks.push_back({strength, out / bank_name(strength)});
   catch_interrupts();
-  for (const double strength : strengths) {
-    if (arguments.judge_only) break;
-    if (fill_bank(bank, plan, out / bank_name(strength), strength, arguments.jobs)) continue;
+  for (; !banks.empty() && !arguments.judge_only; banks.erase(banks.begin())) {
+    if (fill_bank(bank, plan, banks, arguments.jobs)) continue;
     std::cerr << "regress_proof: interrupted; the same command goes on" << std::endl;
     return kExitInterrupted;
   }
@@ -167,22 +182,29 @@ int run_program(int argc, char** argv) {
   app.add_option("--strength", arguments.strengths, "of a degraded estimator; may be given several times")
       ->check(CLI::Range(0.0, 0.99));
   app.add_flag("--judge-only", arguments.judge_only, "with what the banks hold");
-  DegradedRun degraded;
-  std::string out;
-  CLI::App* run = app.add_subcommand("run", "one run of an estimator made worse");
+  DegradedRuns degraded;
+  std::vector<double> run_strengths;
+  std::vector<std::string> run_outs;
+  CLI::App* run = app.add_subcommand("run", "one simulation, by the estimator made worse in one or more ways");
   run->add_option("SCENARIO", degraded.scenario)->required();
   run->add_option("--set", degraded.overrides)->take_all()->allow_extra_args(false);
   run->add_option("--seed", degraded.seed);
-  run->add_option("--out", out)->required();
-  run->add_option("--strength", degraded.strength);
+  run->add_option("--strength", run_strengths)->take_all()->allow_extra_args(false)->required();
+  run->add_option("--out", run_outs, "one for every --strength, in the same order")
+      ->take_all()
+      ->allow_extra_args(false)
+      ->required();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error);
   }
   if (!*run) return prove(arguments);
-  degraded.out = out;
-  return make_degraded_run(degraded);
+  if (run_strengths.size() != run_outs.size()) throw InputError("--out: expected one for every --strength");
+  for (std::size_t i = 0; i < run_outs.size(); ++i) {
+    degraded.degradations.push_back({run_strengths[i], run_outs[i]});
+  }
+  return make_degraded_runs(degraded);
 }
 
 }  // namespace

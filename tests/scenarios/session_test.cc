@@ -246,6 +246,25 @@ TEST_F(Session, EndsInOrderWhenTheEstimatorThrows) {
   }
 }
 
+TEST_F(Session, DrivesSeveralEstimatorsAsIfEachWereAlone) {
+  const Scenario scenario = load();
+  const World world = make_world(scenario);
+  const RayScene rays(world);
+  RecordingEstimator alone;
+  const RunRecord expected = run(scenario, 1, alone);
+  RecordingEstimator failing;
+  failing.throw_after = 50;
+  RecordingEstimator other;
+  const std::vector<RunRecord> records =
+      run_session(scenario, world, rays, {}, std::vector<Estimator*>{&failing, &other});
+  ASSERT_EQ(records.size(), 2U);
+  EXPECT_THAT(records[0].fault, HasSubstr("out of spirits"));
+  EXPECT_LT(failing.messages.size(), 60U);
+  EXPECT_EQ(records[1].fault, "");
+  EXPECT_EQ(records[1].estimate.size(), expected.estimate.size());
+  expect_same_messages(other.messages, alone.messages);
+}
+
 TEST_F(Session, EndsInOrderWhenItIsToldTo) {
   const Scenario scenario = load();
   const World world = make_world(scenario);
