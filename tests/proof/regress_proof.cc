@@ -1,9 +1,11 @@
 // What the regression gate is worth: how often it fails an unchanged estimator, and how often it catches one that was
 // really made worse, measured on a bank of runs that is made once and kept. It can be stopped and started again.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iostream>
+#include <numeric>
 
 #include "scenarios/input_error.h"
 #include "tests/proof/degraded_run.h"
@@ -25,6 +27,7 @@ struct ProofArguments {
   std::string suite = PLUMBLINE_SCENARIO_DIR "/suites/ci.yaml";
   std::string out = "out/regress-proof";
   int bank_seeds = 64;
+  int degraded_seeds = 64;
   int jobs = 1;
   int comparisons = 4000;
   bool judge_only = false;
@@ -37,7 +40,28 @@ std::string bank_name(double strength) { return strength == 0.0 ? "itself" : "de
 struct DegradedBank {
   double strength = 0.0;
   fs::path root;
+  SweepPlan plan;
 };
+
+/// Of the seeds 1 to `seeds`, one after the other, so that a bank that was stopped holds all scenarios.
+SweepPlan plan_of(SuiteFile suite, int seeds) {
+  suite.seeds.resize(static_cast<std::size_t>(seeds));
+  std::iota(suite.seeds.begin(), suite.seeds.end(), std::uint64_t{1});
+  SweepPlan plan = suite_plan(suite, {});
+  std::vector<std::string> keys;
+  for (const PlannedRun& run : plan.runs) keys.push_back(run.key);
+  std::stable_sort(plan.runs.begin(), plan.runs.end(),
+                   [](const PlannedRun& a, const PlannedRun& b) { return a.seed < b.seed; });
+  for (std::size_t i = 0; i < keys.size(); ++i) plan.runs[i].key = keys[i];
+  return plan;
+}
+
+const PlannedRun* same_run(const SweepPlan& plan, const PlannedRun& run) {
+  const auto found = std::find_if(plan.runs.begin(), plan.runs.end(), [&](const PlannedRun& other) {
+    return other.scenario_digest == run.scenario_digest && other.seed == run.seed;
+  });
+  return found == plan.runs.end() ? nullptr : &*found;
+}
 
 /// A run as a child process of ours, which makes it for all these banks from one simulation; see DegradedRuns.
 RunCommand command_for(const SuiteFile& suite, const std::vector<DegradedBank>& banks) {
@@ -51,7 +75,9 @@ RunCommand command_for(const SuiteFile& suite, const std::vector<DegradedBank>& 
     }
     command.insert(command.end(), {"--seed", std::to_string(run.seed)});
     for (const DegradedBank& bank : banks) {
-      const fs::path out = bank.root == banks.front().root ? directory : SweepPaths{bank.root}.run(run.key);
+      const PlannedRun* of_bank = same_run(bank.plan, run);
+      if (of_bank == nullptr) continue;
+      const fs::path out = bank.root == banks.front().root ? directory : SweepPaths{bank.root}.run(of_bank->key);
       command.insert(command.end(), {"--strength", fixed_text(bank.strength, 6), "--out", out.string()});
     }
     return command;
@@ -60,9 +86,9 @@ RunCommand command_for(const SuiteFile& suite, const std::vector<DegradedBank>& 
 
 /// Makes what is missing of the first bank and, as it goes, the same runs of the others, which take them over when
 /// their turn comes. A run's own directory is dropped once its result is stored: hundreds of maps would fill the disk.
-bool fill_bank(const SuiteFile& suite, const SweepPlan& plan, const std::vector<DegradedBank>& banks, int jobs) {
+bool fill_bank(const SuiteFile& suite, const std::vector<DegradedBank>& banks, int jobs) {
   const DegradedBank& bank = banks.front();
-  SweepDirectory directory(bank.root, plan, SweepDirectory::Mode::kResume);
+  SweepDirectory directory(bank.root, bank.plan, SweepDirectory::Mode::kResume);
   const auto remove_stored = [&] {
     for (const StoredRun& stored : directory.store().runs()) fs::remove_all(directory.paths().run(stored.key));
   };
@@ -73,7 +99,7 @@ bool fill_bank(const SuiteFile& suite, const SweepPlan& plan, const std::vector<
     return command(run, target);
   };
   const bool whole =
-      make_runs(plan, directory, tidy_command, {jobs, {}, [&line](double share) { line.update(share); }});
+      make_runs(bank.plan, directory, tidy_command, {jobs, {}, [&line](double share) { line.update(share); }});
   remove_stored();
   return whole;
 }
@@ -148,19 +174,18 @@ std::string judged(const ProofArguments& arguments, const SuiteFile& suite) {
 }
 
 int prove(const ProofArguments& arguments) {
-  SuiteFile suite = read_suite_file(fs::absolute(arguments.suite));
+  const SuiteFile suite = read_suite_file(fs::absolute(arguments.suite));
   const std::size_t own_seeds = suite.seeds.size();
-  SuiteFile bank = suite;
-  bank.seeds.clear();
-  for (int seed = 1; seed <= arguments.bank_seeds; ++seed) bank.seeds.push_back(static_cast<std::uint64_t>(seed));
-  if (bank.seeds.size() < own_seeds) throw InputError("--seeds: fewer than the suite itself has");
+  if (static_cast<std::size_t>(arguments.bank_seeds) < own_seeds) throw InputError("--seeds: fewer than the suite has");
   const fs::path out = fs::absolute(arguments.out);
-  const SweepPlan plan = suite_plan(bank, {});
-  std::vector<DegradedBank> banks{{0.0, out / bank_name(0.0)}};
-  for (const double strength : arguments.strengths) banks.push_back({strength, out / bank_name(strength)});
+  std::vector<DegradedBank> banks{{0.0, out / bank_name(0.0), plan_of(suite, arguments.bank_seeds)}};
+  for (const double strength : arguments.strengths) {
+    const int seeds = std::min(arguments.degraded_seeds, arguments.bank_seeds);
+    banks.push_back({strength, out / bank_name(strength), plan_of(suite, seeds)});
+  }
   catch_interrupts();
   for (; !banks.empty() && !arguments.judge_only; banks.erase(banks.begin())) {
-    if (fill_bank(bank, plan, banks, arguments.jobs)) continue;
+    if (fill_bank(suite, banks, arguments.jobs)) continue;
     std::cerr << "regress_proof: interrupted; the same command goes on" << std::endl;
     return kExitInterrupted;
   }
@@ -177,6 +202,8 @@ int run_program(int argc, char** argv) {
   app.add_option("--suite", arguments.suite, "suite file");
   app.add_option("--out", arguments.out, "directory of the banks");
   app.add_option("--seeds", arguments.bank_seeds, "seeds of the bank")->check(CLI::Range(3, 10'000));
+  app.add_option("--degraded-seeds", arguments.degraded_seeds, "of the degraded ones' banks, if fewer")
+      ->check(CLI::Range(3, 10'000));
   app.add_option("--jobs", arguments.jobs, "runs at a time")->check(CLI::Range(1, 1024));
   app.add_option("--comparisons", arguments.comparisons, "of the unchanged estimator")->check(CLI::Range(4, 1'000'000));
   app.add_option("--strength", arguments.strengths, "of a degraded estimator; may be given several times")
