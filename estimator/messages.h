@@ -56,7 +56,7 @@ struct LidarScan {
   std::int64_t end_ns = 0;    ///< of the time it covers; the scan is delivered then
   std::vector<LidarPoint> points;
   std::int64_t sweep = 0;  ///< which sweep it is part of
-  bool ends_sweep = true;  ///< the last part
+  bool ends_sweep = true;  ///< the last part, which may have no points left to tell of
 };
 
 /// u = fx x' + cx, v = fy y' + cy, where (x', y') is (x/z, y/z) as the lens distorts it.

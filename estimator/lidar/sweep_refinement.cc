@@ -24,7 +24,10 @@ std::optional<SweepRefinement::Sweep> SweepRefinement::add(const LidarScan& part
   }
   if (growing_ && *growing_ != part.sweep) odometry_.discard();  // its end never came
   growing_ = part.sweep;
-  if (odometry_.begun() && now_ns > odometry_.reference_ns()) follow(part, odometry_from_body, covariance, now_ns);
+  const bool sees = !part.points.empty();  // otherwise it only ends its sweep
+  if (sees && odometry_.begun() && now_ns > odometry_.reference_ns()) {
+    follow(part, odometry_from_body, covariance, now_ns);
+  }
   const std::optional<LidarScan> sweep = assembler_.add(part);
   if (!sweep) return std::nullopt;
   growing_.reset();

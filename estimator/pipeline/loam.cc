@@ -122,13 +122,14 @@ void Loam::handle(const LidarScan& received) {
   const LidarScan part = matcher_.range_biases().taken_off(received);
   const std::optional<LidarScan> sweep = assembler_.add(part);
   const std::int64_t now_ns = newest_return_ns(part);
-  if (newest_ns_ != 0) part_s_ = std::max(0.0, seconds_between(newest_ns_, now_ns));
-  newest_ns_ = now_ns;
+  const bool sees = !part.points.empty();  // otherwise it only ends its sweep
+  if (sees && newest_ns_ != 0) part_s_ = std::max(0.0, seconds_between(newest_ns_, now_ns));
+  if (sees) newest_ns_ = now_ns;
   if (now_ns - odometry_.reference_ns() > SweepOdometry::kLongestSilence_ns)
     odometry_ = SweepOdometry(calibration_, weak_directions(remapping_));
   if (growing_ && *growing_ != part.sweep) odometry_.discard();  // its end never came
   growing_ = part.sweep;
-  if (odometry_.begun() && now_ns > odometry_.reference_ns()) follow(part, now_ns);
+  if (sees && odometry_.begun() && now_ns > odometry_.reference_ns()) follow(part, now_ns);
   if (sweep) growing_.reset();
   if (sweep) finish({*sweep, newest_return_ns(*sweep), sweep->stamp_ns != part.stamp_ns});
   if (!health_.empty() && sweep) health_.back().processing_s = watch.seconds();

@@ -149,18 +149,20 @@ void MessageGate::admit(const DepthFrame& frame) {
 
 void MessageGate::admit(const LidarScan& scan) {
   if (!use_.lidar) return drop(Module::kLidar, "disabled");
-  if (scan.points.empty()) return drop(Module::kLidar, "empty");
+  const bool ends_open_sweep = scan.ends_sweep && open_sweep_ == scan.sweep;
+  if (scan.points.empty() && !ends_open_sweep) return drop(Module::kLidar, "empty");
   if (scan.end_ns <= scan.stamp_ns) return drop(Module::kLidar, "back in time");
   if (const char* reason = untimely(scan.end_ns, last_scan_ns_)) return drop(Module::kLidar, reason);
   if (scan.stamp_ns < scan.end_ns - kLongestScan_ns) return drop(Module::kLidar, "too long");
   LidarScan usable = scan;
   std::erase_if(usable.points, [](const LidarPoint& point) { return !in_reach(point); });
-  if (usable.points.empty()) return drop(Module::kLidar, "not finite");
+  if (usable.points.empty() && !scan.points.empty()) return drop(Module::kLidar, "not finite");
   if (same_points(usable.points, last_points_)) return drop(Module::kLidar, "repeats the last");
   last_scan_ns_ = scan.end_ns;
   last_points_ = usable.points;
   std::erase_if(usable.points, [this](const LidarPoint& point) { return use_.own_body.covers(point.position); });
-  if (usable.points.empty()) return drop(Module::kLidar, "nothing seen");
+  if (usable.points.empty() && !ends_open_sweep) return drop(Module::kLidar, "nothing seen");
+  open_sweep_ = scan.ends_sweep ? std::nullopt : std::optional(scan.sweep);
   held_.emplace(scan.end_ns, std::move(usable));
 }
 

@@ -100,6 +100,7 @@ class MessageGate {
   std::map<int, DepthMemory> depth_cameras_;
   std::optional<std::int64_t> last_scan_ns_;
   std::vector<LidarPoint> last_points_;
+  std::optional<std::int64_t> open_sweep_;  ///< of the last scan handed on, if it was not its sweep's last part
   std::multimap<std::int64_t, Message> held_;
   std::map<Module, MessageCounts> counts_;
 };

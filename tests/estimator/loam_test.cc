@@ -249,6 +249,23 @@ TEST(Loam, OutlivesLostParts) {
   EXPECT_LT(run.error(motion, 2'100'000'000, 8'010'000'000).tail<3>().norm(), 0.05);
 }
 
+/// At the end of each sweep the scanner sees nothing, or nothing but its carrier. No sweep ever ended.
+TEST(Loam, FollowsSweepsWhoseLastPartIsEmpty) {
+  const testing::BoxWorld room = testing::furnished_room();
+  const Motion motion = turning_walk(0.4, 0.1);
+  RandomStream noise(6, "lidar");
+  LoamRun run(calibration_of(40, 1.0));
+  for (std::int64_t sweep = 0; sweep < 6; ++sweep) {
+    auto parts = testing::turned_scanner_sweep(room, motion, sweep, 0.01, noise);
+    parts.back().points.clear();
+    for (const LidarScan& part : parts) run.add(part);
+  }
+  run.wait_until(6'010'000'000);
+  const Vector6d error = run.error(motion, 2'100'000'000, 5'900'000'000);
+  EXPECT_LT(error.tail<3>().norm(), 0.05);
+  EXPECT_LT(error.head<3>().norm(), 0.02);
+}
+
 /// The first sweep after a silence is laid down where steady motion leads: over four seconds, anywhere within metres.
 TEST(Loam, ASilenceIsNotForgottenWithTheFirstSweepAfterIt) {
   const testing::BoxWorld hall = testing::pillared_hall(40.0);

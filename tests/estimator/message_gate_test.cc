@@ -197,6 +197,28 @@ TEST(MessageGate, LeavesReturnsFromTheCarrierOut) {
   EXPECT_EQ(gate.counts(Module::kLidar).dropped.at("nothing seen"), 1);
 }
 
+/// A part of which nothing is left still tells that its sweep is whole.
+TEST(MessageGate, HandsAnEmptyPartOnThatEndsItsSweep) {
+  MessageGate gate = gate_at(kSecond);
+  LidarScan part = scan_until(kSecond);
+  part.ends_sweep = false;
+  part.sweep = 4;
+  gate.admit(part);
+  LidarScan empty = scan_until(kSecond + 100 * kMillisecond);
+  empty.points.clear();
+  empty.sweep = 4;
+  gate.admit(empty);
+  ASSERT_TRUE(gate.next(kSecond + 100 * kMillisecond));
+  const auto end = gate.next(kSecond + 100 * kMillisecond);
+  ASSERT_TRUE(end);
+  EXPECT_TRUE(std::get<LidarScan>(*end).ends_sweep);
+  // Once it has ended, and where it never began, an empty part says nothing.
+  empty.stamp_ns += 100 * kMillisecond;
+  empty.end_ns += 100 * kMillisecond;
+  gate.admit(empty);
+  EXPECT_EQ(gate.counts(Module::kLidar).dropped.at("empty"), 1);
+}
+
 TEST(MessageGate, WhatWasMeasuredBeforeTheStartIsDropped) {
   MessageGate gate = gate_at(kSecond);
   gate.admit(frame_at(kSecond + 10 * kMillisecond, 1));
