@@ -2,20 +2,18 @@
 // really made worse, measured on a bank of runs that is made once and kept. It can be stopped and started again.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
-#include <fstream>
 #include <iostream>
 #include <numeric>
 
 #include "scenarios/input_error.h"
+#include "tests/proof/bank_judgement.h"
 #include "tests/proof/degraded_run.h"
-#include "tests/proof/resampling.h"
-#include "tools/evaluation/quantile.h"
 #include "tools/exit_code.h"
 #include "tools/formats/number_text.h"
 #include "tools/interrupt.h"
 #include "tools/output/atomic_file.h"
 #include "tools/progress_line.h"
+#include "tools/study/baseline.h"
 #include "tools/study/suite_plan.h"
 
 namespace plumbline {
@@ -33,8 +31,6 @@ struct ProofArguments {
   bool judge_only = false;
   std::vector<double> strengths;  ///< of degradation; each has a bank of its own, made from the same simulations
 };
-
-std::string bank_name(double strength) { return strength == 0.0 ? "itself" : "degraded_" + fixed_text(strength, 3); }
 
 /// A bank's runs: those of one strength.
 struct DegradedBank {
@@ -104,73 +100,12 @@ bool fill_bank(const SuiteFile& suite, const std::vector<DegradedBank>& banks, i
   return whole;
 }
 
-std::vector<MeasuredRun> bank_of(const fs::path& root) {
-  const StoredSweep stored = read_sweep(root);
-  return measured_runs(stored.plan, stored.runs);
-}
-
-/// Keeps of each bank the runs that all of them have.
-void keep_common(std::vector<std::vector<MeasuredRun>>& banks) {
-  for (std::vector<MeasuredRun>& bank : banks) {
-    std::erase_if(bank, [&](const MeasuredRun& run) {
-      return std::any_of(banks.begin(), banks.end(), [&](const std::vector<MeasuredRun>& other) {
-        return !std::binary_search(other.begin(), other.end(), run, before_in_suite);
-      });
-    });
-  }
-}
-
-double median_drift(const std::vector<MeasuredRun>& bank) {
-  std::vector<double> drifts;
-  for (const MeasuredRun& run : bank) drifts.push_back(run.drift_percent.value_or(0.0));
-  return quantile(drifts, 0.5).value_or(0.0);
-}
-
-std::size_t fewest_seeds(const std::vector<MeasuredRun>& bank) {
-  std::map<std::string, std::size_t> seeds;
-  for (const MeasuredRun& run : bank) ++seeds[run.scenario];
-  std::size_t fewest = bank.size();
-  for (const auto& [scenario, count] : seeds) fewest = std::min(fewest, count);
-  return fewest;
-}
-
-std::string rate_text(const FailureCount& count) {
-  return std::to_string(count.failed) + " of " + std::to_string(count.of) + " (" + readable_text(100.0 * count.rate()) +
-         " %; 95 % bounds " + readable_text(100.0 * lower_bound_95(count)) + " … " +
-         readable_text(100.0 * upper_bound_95(count)) + " %)";
-}
-
-std::string judged(const ProofArguments& arguments, const SuiteFile& suite) {
-  const std::size_t seeds = suite.seeds.size();
-  const auto times = static_cast<std::size_t>(arguments.comparisons);
-  const std::vector<MeasuredRun> itself = bank_of(fs::path(arguments.out) / bank_name(0.0));
-  std::string text = "# The regression gate, measured\n\nSuite " + suite.name + ", " +
-                     std::to_string(suite.scenarios.size()) + " scenarios of " + std::to_string(seeds) +
-                     " seeds; bank of " + std::to_string(itself.size()) + " runs, at least " +
-                     std::to_string(fewest_seeds(itself)) + " seeds a scenario.\n\n";
-  if (fewest_seeds(itself) >= 2 * seeds) {
-    text += "- unchanged, disjoint seeds: fails " + rate_text(against_itself(itself, seeds, times)) + "\n";
-  } else {
-    text += "- unchanged, disjoint seeds: the bank is too small yet\n";
-  }
-  for (const double strength : arguments.strengths) {
-    std::vector<std::vector<MeasuredRun>> banks{itself, bank_of(fs::path(arguments.out) / bank_name(strength))};
-    keep_common(banks);
-    const Comparison whole = compare_runs(banks[0], banks[1], suite.effects, true);
-    const Change& main = whole.changes.front();
-    text += "- degraded by " + readable_text(strength) + " over " + std::to_string(whole.pairs.size()) +
-            " pairs: pooled 1 s error grown by " + readable_text(main.percent.value) + " % (" +
-            readable_text(main.percent.low) + " … " + readable_text(main.percent.high) + "), median drift " +
-            readable_text(median_drift(banks[0])) + " → " + readable_text(median_drift(banks[1])) + " %; ";
-    if (fewest_seeds(banks[0]) < seeds) {
-      text += "the bank is too small yet\n";
-      continue;
-    }
-    const FailureCount caught = against_each_other(banks[0], banks[1], seeds, times / 4);
-    text +=
-        "caught " + rate_text(caught) + ", by the main figure alone " + std::to_string(caught.by_main_figure) + "\n";
-  }
-  return text;
+/// What has been made of a bank so far, written to a file that the gate can be judged by.
+void keep_bank(const SuiteFile& suite, const DegradedBank& bank) {
+  if (!fs::exists(SweepPaths{bank.root}.store())) return;
+  const StoredSweep stored = read_sweep(bank.root);
+  write_file_atomically(bank_file(bank.root.parent_path(), bank.strength),
+                        baseline_json(baseline_of(suite, stored.plan, stored.runs)));
 }
 
 int prove(const ProofArguments& arguments) {
@@ -184,12 +119,16 @@ int prove(const ProofArguments& arguments) {
     banks.push_back({strength, out / bank_name(strength), plan_of(suite, seeds)});
   }
   catch_interrupts();
-  for (; !banks.empty() && !arguments.judge_only; banks.erase(banks.begin())) {
-    if (fill_bank(suite, banks, arguments.jobs)) continue;
+  bool whole = true;
+  for (std::size_t i = 0; i < banks.size() && whole && !arguments.judge_only; ++i) {
+    whole = fill_bank(suite, {banks.begin() + static_cast<std::ptrdiff_t>(i), banks.end()}, arguments.jobs);
+  }
+  for (const DegradedBank& bank : banks) keep_bank(suite, bank);
+  if (!whole) {
     std::cerr << "regress_proof: interrupted; the same command goes on" << std::endl;
     return kExitInterrupted;
   }
-  const std::string text = judged(arguments, suite);
+  const std::string text = judged_banks(out, suite, arguments.strengths, arguments.comparisons);
   write_file_atomically(out / "proof.md", text);
   std::cout << text << std::flush;
   return kExitDone;
@@ -208,7 +147,7 @@ int run_program(int argc, char** argv) {
   app.add_option("--comparisons", arguments.comparisons, "of the unchanged estimator")->check(CLI::Range(4, 1'000'000));
   app.add_option("--strength", arguments.strengths, "of a degraded estimator; may be given several times")
       ->check(CLI::Range(0.0, 0.99));
-  app.add_flag("--judge-only", arguments.judge_only, "with what the banks hold");
+  app.add_flag("--judge-only", arguments.judge_only, "by the banks that --out holds, without a run");
   DegradedRuns degraded;
   std::vector<double> run_strengths;
   std::vector<std::string> run_outs;

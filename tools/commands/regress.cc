@@ -49,15 +49,6 @@ std::optional<std::vector<StoredRun>> make_suite_runs(const SuiteFile& suite, co
   return directory.store().runs();
 }
 
-Baseline measured(const SuiteFile& suite, const SweepPlan& plan, const std::vector<StoredRun>& stored) {
-  Baseline baseline{suite.name, suite_digest(suite), {}, program_version(), this_machine(), {}};
-  for (const std::string& estimator : plan.estimators) {
-    baseline.estimator += (baseline.estimator.empty() ? "" : ", ") + estimator;
-  }
-  baseline.runs = measured_runs(plan, stored);
-  return baseline;
-}
-
 /// A baseline made of runs that crashed would forgive every crash to come.
 int update_baseline(const fs::path& path, const Baseline& runs) {
   for (const MeasuredRun& run : runs.runs) {
@@ -109,7 +100,7 @@ int run_regress(const RegressArguments& given) {
     return kExitInterrupted;
   }
   write_sweep_outputs(out, plan, run_rows(plan, *stored));
-  Baseline after = measured(suite, plan, *stored);
+  Baseline after = baseline_of(suite, plan, *stored);
   if (arguments.update) return update_baseline(baseline_path, after);
 
   const Regression regression = make_regression(std::move(*before), std::move(after), suite.effects);

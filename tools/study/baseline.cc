@@ -12,6 +12,7 @@
 #include "scenarios/config_reader.h"
 #include "scenarios/input_error.h"
 #include "tools/formats/number_text.h"
+#include "tools/study/suite_plan.h"
 
 namespace plumbline {
 namespace {
@@ -146,6 +147,15 @@ std::string content_of(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+Baseline baseline_of(const SuiteFile& suite, const SweepPlan& plan, const std::vector<StoredRun>& stored) {
+  Baseline baseline{suite.name, suite_digest(suite), {}, plan.program, this_machine(), {}};
+  for (const std::string& estimator : plan.estimators) {
+    baseline.estimator += (baseline.estimator.empty() ? "" : ", ") + estimator;
+  }
+  baseline.runs = measured_runs(plan, stored);
+  return baseline;
+}
 
 std::string baseline_json(const Baseline& baseline) {
   ordered_json head{

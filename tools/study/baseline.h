@@ -6,6 +6,7 @@
 
 #include "tools/output/provenance.h"
 #include "tools/study/measured_run.h"
+#include "tools/study/suite_file.h"
 
 namespace plumbline {
 
@@ -18,6 +19,8 @@ struct Baseline {
   Machine machine;
   std::vector<MeasuredRun> runs;  ///< by scenario and seed
 };
+
+Baseline baseline_of(const SuiteFile& suite, const SweepPlan& plan, const std::vector<StoredRun>& stored);
 
 constexpr int kBaselineSchemaVersion = 1;
 

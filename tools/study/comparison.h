@@ -59,7 +59,7 @@ struct Comparison {
 std::vector<std::string> scenarios_of(const std::vector<RunPair>& pairs);
 
 /// The probability that any test at all fails where nothing has changed, at most; shared out by the figures' weights.
-constexpr double kFalseAlarmRate = 0.004;
+constexpr double kFalseAlarmRate = 0.005;
 
 /// @param before, after  by scenario and seed; they must outlive the result, which points at them. Runs that only one
 /// of them has are left out

@@ -11,8 +11,19 @@ constexpr double kLeastError_mm = 0.01;
 constexpr double kLeastDrift_percent = 0.02;
 constexpr double kLeastProgressError_percent = 0.02;
 
+/// The geometric mean over the run's seconds. A root mean square is that of the two or three worst ones, which vary the
+/// most: on the kept bank (tests/proof) a growth of 8.6 % is 3.0 standard errors of a suite of eight seeds by it, 3.9 by
+/// this.
 std::optional<double> relative_error(const MeasuredRun& run) {
   if (!run.relative_error_m) return std::nullopt;
+  double sum = 0.0;
+  int seconds = 0;
+  for (const double error_m : run.relative_error_by_second_m) {
+    if (!std::isfinite(error_m)) continue;
+    sum += std::log(std::max(1e3 * error_m, kLeastError_mm));
+    ++seconds;
+  }
+  if (seconds > 0) return std::exp(sum / seconds);
   return std::max(1e3 * *run.relative_error_m, kLeastError_mm);
 }
 

@@ -46,4 +46,10 @@ inline std::vector<MeasuredRun> synthetic_suite(int seeds, const std::string& ch
   return runs;
 }
 
+/// Errors more in every second.
+inline void worsen(MeasuredRun& run, double factor) {
+  *run.relative_error_m *= factor;
+  for (double& second : run.relative_error_by_second_m) second *= factor;
+}
+
 }  // namespace plumbline::testing
