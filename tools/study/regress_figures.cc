@@ -12,8 +12,8 @@ constexpr double kLeastDrift_percent = 0.02;
 constexpr double kLeastProgressError_percent = 0.02;
 
 /// The geometric mean over the run's seconds. A root mean square is that of the two or three worst ones, which vary the
-/// most: on the kept bank (tests/proof) a growth of 8.6 % is 3.0 standard errors of a suite of eight seeds by it, 3.9 by
-/// this.
+/// most: on the kept bank (tests/proof) a growth of 8.6 % is 3.0 standard errors of a suite of eight seeds by it, 3.9
+/// by this.
 std::optional<double> relative_error(const MeasuredRun& run) {
   if (!run.relative_error_m) return std::nullopt;
   double sum = 0.0;
