@@ -64,7 +64,8 @@ TEST(RelativeError, BySecondShowsWhenItArose) {
                                             pose.translation.x() += 0.2 * std::clamp(time_s - 5.0, 0.0, 1.0);
                                             return pose;
                                           }));
-  const std::vector<double>& seconds = figures.rpe_by_second_m;
+  std::vector<double> seconds;
+  for (const RootMeanSquare& second : figures.rpe_by_second) seconds.push_back(second.translation_m);
   ASSERT_EQ(seconds.size(), 8U);  // the last holds the one motion that begins at 7 s
   EXPECT_NEAR(seconds[3], 0.0, 1e-9);
   // Motions that begin between 4 s and 5 s take in a share of it that grows linearly to all, those after it the rest.

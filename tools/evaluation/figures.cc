@@ -130,7 +130,7 @@ TrajectoryFigures trajectory_figures(const StampedPoses& truth, const StampedPos
   // Relative figures are blind to alignment but for a scale, which the aligned estimate already has.
   figures.kitti = kitti_error(figures.aligned, figures.distance_m);
   figures.rpe = relative_error(figures.aligned);
-  figures.rpe_by_second_m = relative_error_by_second_m(figures.aligned);
+  figures.rpe_by_second = relative_error_by_second(figures.aligned);
   figures.ape = absolute_error(moved_by(align(pairs, alignment.value_or(AlignmentKind::kSe3)), pairs));
   return figures;
 }

@@ -31,7 +31,7 @@ struct TrajectoryFigures {
   KittiError kitti;
   std::optional<RootMeanSquare> ape;
   std::optional<RootMeanSquare> rpe;
-  std::vector<double> rpe_by_second_m;  ///< see relative_error_by_second_m()
+  std::vector<RootMeanSquare> rpe_by_second;  ///< see relative_error_by_second()
   std::optional<double>
       lost_since_s;  ///< since then the position error stays above 1 m + 10 % of the distance travelled
 

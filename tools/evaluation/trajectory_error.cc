@@ -82,19 +82,17 @@ std::optional<RootMeanSquare> relative_error(const std::vector<PosePair>& pairs)
   return sum.root_mean_square();
 }
 
-std::vector<double> relative_error_by_second_m(const std::vector<PosePair>& pairs) {
+std::vector<RootMeanSquare> relative_error_by_second(const std::vector<PosePair>& pairs) {
   std::vector<ErrorSum> sums;
   for_each_relative_error(pairs, [&](const PosePair& start, const Pose& error) {
     const auto second = static_cast<std::size_t>((start.stamp_ns - pairs.front().stamp_ns) / kRelativeNs);
     if (sums.size() <= second) sums.resize(second + 1);
     sums[second].add(error);
   });
-  std::vector<double> by_second_m;
-  for (const ErrorSum& sum : sums) {
-    const auto error = sum.root_mean_square();
-    by_second_m.push_back(error ? error->translation_m : std::numeric_limits<double>::quiet_NaN());
-  }
-  return by_second_m;
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  std::vector<RootMeanSquare> by_second;
+  for (const ErrorSum& sum : sums) by_second.push_back(sum.root_mean_square().value_or(RootMeanSquare{kNone, kNone}));
+  return by_second;
 }
 
 }  // namespace plumbline

@@ -30,8 +30,8 @@ std::optional<RootMeanSquare> absolute_error(const std::vector<PosePair>& aligne
 /// Of the motions over 1 s; blind to alignment. Nothing when the pairs span less.
 std::optional<RootMeanSquare> relative_error(const std::vector<PosePair>& pairs);
 
-/// Translation error of the motions over 1 s, root mean square over those that begin in each second, counted from the
-/// first pair: a run's samples for statistics. A second in which none begins is NaN.
-std::vector<double> relative_error_by_second_m(const std::vector<PosePair>& pairs);
+/// Of the motions over 1 s that begin in each second, counted from the first pair: a run's samples for statistics. A
+/// second in which none begins is NaN.
+std::vector<RootMeanSquare> relative_error_by_second(const std::vector<PosePair>& pairs);
 
 }  // namespace plumbline

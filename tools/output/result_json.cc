@@ -32,6 +32,17 @@ ordered_json numbers(const std::vector<double>& values) {
   return list;
 }
 
+void set_relative_by_second(ordered_json& result, const std::vector<RootMeanSquare>& seconds) {
+  std::vector<double> m;
+  std::vector<double> deg;
+  for (const RootMeanSquare& second : seconds) {
+    m.push_back(second.translation_m);
+    deg.push_back(second.rotation_deg);
+  }
+  result["rpe_by_second_m"] = numbers(m);
+  result["rpe_by_second_deg"] = numbers(deg);
+}
+
 ordered_json checks_json(const Verdict& verdict) {
   ordered_json checks = ordered_json::array();
   for (const Check& check : verdict.checks) {
@@ -81,7 +92,7 @@ std::string result_json(const RunFigures& figures, const Verdict& verdict, const
   result["estimator"] = provenance.estimator;
   set_all(result, figure_list(figures));
   result["kitti_scaled"] = figures.trajectory.kitti.scaled;
-  result["rpe_by_second_m"] = numbers(figures.trajectory.rpe_by_second_m);
+  set_relative_by_second(result, figures.trajectory.rpe_by_second);
   set_nested(result, figures);
   if (figures.flight) {
     result["flight_end"] = to_string(figures.flight->end);
@@ -103,7 +114,7 @@ std::string trajectory_json(const TrajectoryFigures& figures) {
   result["schema_version"] = kResultSchemaVersion;
   set_all(result, figure_list(figures));
   result["kitti_scaled"] = figures.kitti.scaled;
-  result["rpe_by_second_m"] = numbers(figures.rpe_by_second_m);
+  set_relative_by_second(result, figures.rpe_by_second);
   return dump(result);
 }
 

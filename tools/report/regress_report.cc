@@ -86,7 +86,7 @@ std::string run_table(const Regression& regression) {
   std::string html = head_row({"run", "before", "after"}, figures);
   for (const RunPair& pair : regression.comparison.pairs) {
     const std::string name = escape_markup(pair.after->scenario + ", seed " + std::to_string(pair.after->seed));
-    const bool has_page = pair.after->relative_error_m.has_value();
+    const bool has_page = pair.after->status != "error";
     html += "<tr><td>" + (has_page ? "<a href=\"runs/" + pair.after->key + "/report.html\">" + name + "</a>" : name) +
             "</td>" + badge_cell(*pair.before) + badge_cell(*pair.after);
     for (const RegressFigure& figure : regress_figures()) html += both(figure, pair);

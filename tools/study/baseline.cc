@@ -36,19 +36,24 @@ ordered_json number(double value) {
 
 ordered_json number(const std::optional<double>& value) { return value ? number(*value) : ordered_json(nullptr); }
 
+/// In thousandths of the values' unit.
+ordered_json thousandths(const std::vector<double>& values) {
+  ordered_json list = ordered_json::array();
+  for (const double value : values) list.push_back(number(1e3 * value));
+  return list;
+}
+
 ordered_json run_json(const MeasuredRun& run) {
-  ordered_json seconds = ordered_json::array();
-  for (const double value : run.relative_error_by_second_m) seconds.push_back(number(1e3 * value));
   return {{"scenario", run.scenario},
           {"seed", run.seed},
           {"status", run.status},
-          {"relative_error_m", number(run.relative_error_m)},
           {"drift_percent", number(run.drift_percent)},
           {"progress_ratio", number(run.progress_ratio)},
           {"estimator_time_ratio", number(run.estimator_time_ratio)},
           {"cpu_s", number(run.cpu_s)},
           {"peak_memory_mb", number(run.peak_memory_mb)},
-          {"relative_error_by_second_mm", seconds}};
+          {"relative_error_by_second_mm", thousandths(run.relative_error_by_second_m)},
+          {"relative_rotation_by_second_mdeg", thousandths(run.relative_rotation_by_second_deg)}};
 }
 
 std::string dump(const ordered_json& value) {
@@ -85,7 +90,7 @@ class Reader {
     if (!value) fail(key, "a number");
     return *value;
   }
-  std::vector<double> millimetres(const std::string& key) const {
+  std::vector<double> thousandths(const std::string& key) const {
     const json& list = at(key);
     if (!list.is_array() || list.size() > kMostSeconds) fail(key, "a list of at most 100000 numbers");
     std::vector<double> values;
@@ -125,13 +130,13 @@ MeasuredRun run_of(const Reader& reader) {
   if (std::find(kStatuses.begin(), kStatuses.end(), run.status) == kStatuses.end()) {
     reader.fail("status", "ok, failed, lost or error");
   }
-  run.relative_error_m = reader.figure("relative_error_m");
   run.drift_percent = reader.figure("drift_percent");
   run.progress_ratio = reader.figure("progress_ratio", -kLargestNumber);
   run.estimator_time_ratio = reader.figure("estimator_time_ratio");
   run.cpu_s = reader.positive("cpu_s");
   run.peak_memory_mb = reader.positive("peak_memory_mb");
-  run.relative_error_by_second_m = reader.millimetres("relative_error_by_second_mm");
+  run.relative_error_by_second_m = reader.thousandths("relative_error_by_second_mm");
+  run.relative_rotation_by_second_deg = reader.thousandths("relative_rotation_by_second_mdeg");
   return run;
 }
 

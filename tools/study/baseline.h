@@ -22,7 +22,7 @@ struct Baseline {
 
 Baseline baseline_of(const SuiteFile& suite, const SweepPlan& plan, const std::vector<StoredRun>& stored);
 
-constexpr int kBaselineSchemaVersion = 1;
+constexpr int kBaselineSchemaVersion = 2;
 
 /// JSON, a line per run, so that changes of it can be read; numbers to five digits.
 std::string baseline_json(const Baseline& baseline);

@@ -19,9 +19,9 @@ json parsed(const std::string& text) {
   return result.is_object() ? result : json::object();
 }
 
-std::vector<double> by_second(const json& result) {
+std::vector<double> by_second(const json& result, const char* key) {
   std::vector<double> values;
-  for (const json& value : result.value("rpe_by_second_m", json::array())) {
+  for (const json& value : result.value(key, json::array())) {
     values.push_back(value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN());
   }
   return values;
@@ -50,8 +50,9 @@ std::vector<MeasuredRun> measured_runs(const SweepPlan& plan, const std::vector<
     const RunRow& row = rows.front();
     const json result = parsed(from.result);
     runs.push_back({suite_scenario_of(row.run), row.run.seed, row.run.key, row.status, row.reason,
-                    row.figure("rpe_rmse_m"), by_second(result), row.figure("drift_percent"),
-                    row.figure("progress_ratio"), estimator_time_ratio(result), row.cpu_s, row.peak_memory_mb});
+                    by_second(result, "rpe_by_second_m"), by_second(result, "rpe_by_second_deg"),
+                    row.figure("drift_percent"), row.figure("progress_ratio"), estimator_time_ratio(result), row.cpu_s,
+                    row.peak_memory_mb});
   }
   std::sort(runs.begin(), runs.end(), before_in_suite);
   return runs;

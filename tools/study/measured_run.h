@@ -13,11 +13,11 @@ namespace plumbline {
 struct MeasuredRun {
   std::string scenario;  ///< its name in the suite
   std::uint64_t seed = 0;
-  std::string key;                                 ///< of the run in its study; empty in a baseline
-  std::string status;                              ///< of the result; "error" without one
-  std::string reason;                              ///< why it is not ok
-  std::optional<double> relative_error_m;          ///< over 1 s, root mean square of the run
-  std::vector<double> relative_error_by_second_m;  ///< of the motions that begin in each second; NaN: of none
+  std::string key;                                      ///< of the run in its study; empty in a baseline
+  std::string status;                                   ///< of the result; "error" without one
+  std::string reason;                                   ///< why it is not ok
+  std::vector<double> relative_error_by_second_m;       ///< of the motions over 1 s that begin in each; NaN: of none
+  std::vector<double> relative_rotation_by_second_deg;  ///< likewise, of their rotations
   std::optional<double> drift_percent;
   std::optional<double> progress_ratio;
   /// The estimator's time over the simulation's in the same process, which a slow or busy machine moves little.

@@ -11,8 +11,9 @@ namespace {
 using nlohmann::ordered_json;
 
 /// What the table says in columns of its own, or what does not belong into it.
-constexpr std::array<std::string_view, 9> kNoFigures = {
-    "schema_version", "status", "fault", "scenario", "seed", "estimator", "rpe_by_second_m", "checks", "provenance"};
+constexpr std::array<std::string_view, 10> kNoFigures = {
+    "schema_version",    "status", "fault",     "scenario", "seed", "estimator", "rpe_by_second_m",
+    "rpe_by_second_deg", "checks", "provenance"};
 
 bool is_wall_clock(const std::string& key) {
   return key == "wall_s" || key.ends_with("real_time_factor") || key.ends_with("_ms");

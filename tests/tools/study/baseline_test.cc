@@ -52,8 +52,10 @@ TEST_F(BaselineTest, ComesBackAsItWasToFiveDigits) {
   EXPECT_EQ(after.suite_digest, before.suite_digest);
   EXPECT_EQ(after.machine.cpu, "a processor");
   ASSERT_EQ(after.runs.size(), before.runs.size());
-  EXPECT_NEAR(*after.runs[0].relative_error_m, *before.runs[0].relative_error_m,
-              1e-5 * *before.runs[0].relative_error_m);
+  const double error_m = before.runs[0].relative_error_by_second_m[0];
+  EXPECT_NEAR(after.runs[0].relative_error_by_second_m[0], error_m, 5e-5 * error_m);
+  const double rotation_deg = before.runs[0].relative_rotation_by_second_deg[0];
+  EXPECT_NEAR(after.runs[0].relative_rotation_by_second_deg[0], rotation_deg, 5e-5 * rotation_deg);
   EXPECT_FALSE(after.runs[1].drift_percent);
   EXPECT_TRUE(std::isnan(after.runs[2].relative_error_by_second_m[1]));
   EXPECT_EQ(baseline_json(after), text);
@@ -67,8 +69,8 @@ TEST_F(BaselineTest, CutShortAnywhereItIsRefused) {
 }
 
 TEST_F(BaselineTest, SaysWhatIsWrongAndWhere) {
-  EXPECT_THAT(refusal_with("\"schema_version\": 1", "\"schema_version\": 7"), HasSubstr("schema version 7"));
-  EXPECT_THAT(refusal_with("\"schema_version\": 1", "\"schema_version\": \"1\""), HasSubstr("schema_version"));
+  EXPECT_THAT(refusal_with("\"schema_version\": 2", "\"schema_version\": 7"), HasSubstr("schema version 7"));
+  EXPECT_THAT(refusal_with("\"schema_version\": 2", "\"schema_version\": \"2\""), HasSubstr("schema_version"));
   EXPECT_THAT(refusal_with("\"suite_digest\"", "\"digest\""), HasSubstr("suite_digest: missing"));
   EXPECT_THAT(refusal_with("\"status\":\"ok\"", "\"status\":\"fine\""), HasSubstr("runs[0].status: found \"fine\""));
   EXPECT_THAT(refusal_with("\"seed\":1", "\"seed\":-1"), HasSubstr("runs[0].seed"));

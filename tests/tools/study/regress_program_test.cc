@@ -29,7 +29,6 @@ TEST_F(RegressProgram, UpdatesComparesAndFails) {
   ASSERT_EQ(call(common + "base.json --update"), 0) << content("said.txt");
   const Baseline baseline = read_baseline(directory_.path() / "base.json");
   ASSERT_EQ(baseline.runs.size(), 5U);
-  EXPECT_GT(baseline.runs[0].relative_error_m.value_or(0.0), 0.0);
   EXPECT_FALSE(baseline.runs[0].relative_error_by_second_m.empty());
 
   // The runs are there already: the same bytes come out, and nothing fails.

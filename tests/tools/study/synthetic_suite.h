@@ -33,13 +33,14 @@ inline std::vector<MeasuredRun> synthetic_suite(int seeds, const std::string& ch
       run.seed = static_cast<std::uint64_t>(seed);
       run.key = std::to_string(runs.size());
       run.status = "ok";
-      run.relative_error_m = 0.008 * error_factor * std::exp(spread);
-      run.relative_error_by_second_m.assign(8, *run.relative_error_m);
+      run.relative_error_by_second_m.assign(8, 0.008 * error_factor * std::exp(spread));
       run.drift_percent = 0.1 * drift_factor * std::hypot(x, y);
       run.progress_ratio = 1.0 + 0.0007 * drift_factor * x;
       run.estimator_time_ratio = 0.8 * std::exp(0.05 * own.gaussian());
       run.cpu_s = 15.0;
       run.peak_memory_mb = 400.0 * std::exp(0.01 * own.gaussian());
+      run.relative_rotation_by_second_deg.assign(8,
+                                                 0.02 * error_factor * std::exp(scatter.within_pair * own.gaussian()));
       runs.push_back(run);
     }
   }
@@ -48,7 +49,6 @@ inline std::vector<MeasuredRun> synthetic_suite(int seeds, const std::string& ch
 
 /// Errors more in every second.
 inline void worsen(MeasuredRun& run, double factor) {
-  *run.relative_error_m *= factor;
   for (double& second : run.relative_error_by_second_m) second *= factor;
 }
 
