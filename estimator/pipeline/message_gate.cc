@@ -156,7 +156,7 @@ void MessageGate::admit(const LidarScan& scan) {
   if (scan.stamp_ns < scan.end_ns - kLongestScan_ns) return drop(Module::kLidar, "too long");
   LidarScan usable = scan;
   std::erase_if(usable.points, [](const LidarPoint& point) { return !in_reach(point); });
-  if (usable.points.empty() && !scan.points.empty()) return drop(Module::kLidar, "not finite");
+  if (usable.points.empty() && !scan.points.empty() && !ends_open_sweep) return drop(Module::kLidar, "not finite");
   if (same_points(usable.points, last_points_)) return drop(Module::kLidar, "repeats the last");
   last_scan_ns_ = scan.end_ns;
   last_points_ = usable.points;

@@ -198,6 +198,21 @@ TEST(MessageGate, LeavesReturnsFromTheCarrierOut) {
 }
 
 /// A part of which nothing is left still tells that its sweep is whole.
+TEST(MessageGate, HandsAPartWithoutAFiniteReturnOnThatEndsItsSweep) {
+  MessageGate gate = gate_at(kSecond);
+  LidarScan part = scan_until(kSecond);
+  part.ends_sweep = false;
+  gate.admit(part);
+  LidarScan end = scan_until(kSecond + 100 * kMillisecond);
+  for (LidarPoint& point : end.points) point.position.x() = std::numeric_limits<float>::quiet_NaN();
+  gate.admit(end);
+  ASSERT_TRUE(gate.next(kSecond + 100 * kMillisecond));
+  const auto handed_on = gate.next(kSecond + 100 * kMillisecond);
+  ASSERT_TRUE(handed_on);
+  EXPECT_TRUE(std::get<LidarScan>(*handed_on).ends_sweep);
+  EXPECT_TRUE(std::get<LidarScan>(*handed_on).points.empty());
+}
+
 TEST(MessageGate, HandsAnEmptyPartOnThatEndsItsSweep) {
   MessageGate gate = gate_at(kSecond);
   LidarScan part = scan_until(kSecond);

@@ -1,6 +1,5 @@
 #include "tools/commands/regress.h"
 
-#include <chrono>
 #include <iostream>
 #include <memory>
 
@@ -10,6 +9,7 @@
 #include "tools/exit_code.h"
 #include "tools/interrupt.h"
 #include "tools/output/atomic_file.h"
+#include "tools/output/provenance.h"
 #include "tools/progress_line.h"
 #include "tools/report/regress_text.h"
 #include "tools/study/regress_outputs.h"
@@ -20,12 +20,6 @@ namespace plumbline {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Tells builds apart that have the same version: what a changed program has not run must not be taken as done.
-std::string build_mark(const std::string& program) {
-  const auto written = fs::last_write_time(program).time_since_epoch();
-  return " built " + std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(written).count());
-}
 
 /// @throws InputError for a baseline of another suite
 Baseline baseline_for(const SuiteFile& suite, const fs::path& path) {
@@ -89,7 +83,8 @@ int run_regress(const RegressArguments& given) {
   // Files named by values of the suite are relative to it, for us and for the runs, which inherit this.
   fs::current_path(suite.path.parent_path());
   SweepPlan plan = suite_plan(suite, arguments.estimator);
-  plan.program += build_mark(own_program());
+  // Builds of the same version are told apart: what a changed program has not run must not be taken as done.
+  plan.program = program_identity(own_program());
   // What is wrong with the baseline is said before the time for the runs is spent.
   std::optional<Baseline> before;
   if (!arguments.update) before = baseline_for(suite, baseline_path);

@@ -3,8 +3,11 @@
 #include <sys/utsname.h>
 
 #include <fstream>
+#include <iterator>
 #include <thread>
 
+#include "scenarios/digest.h"
+#include "scenarios/input_error.h"
 #include "tools/output/build_info.h"
 
 namespace plumbline {
@@ -43,6 +46,12 @@ Machine this_machine() {
 std::string program_version() {
   const std::string commit = kGitCommit;
   return kVersion + (commit.empty() ? std::string() : " (" + commit + ")");
+}
+
+std::string program_identity(const std::filesystem::path& program) {
+  std::ifstream file(program, std::ios::binary);
+  if (!file) throw InputError(program.string() + ": cannot be read, expected a program");
+  return program_version() + " " + digest_of(std::string{std::istreambuf_iterator<char>(file), {}}).substr(0, 8);
 }
 
 Provenance make_provenance(const Scenario& scenario, int threads) {

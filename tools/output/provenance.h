@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,6 +33,10 @@ Machine this_machine();
 
 /// "0.1.0 (7c7af71)": the version, and the commit where it is known.
 std::string program_version();
+
+/// "0.1.0 (7c7af71) 1a2b3c4d": that, and what the program's file really is: it may be built from what is in no commit.
+/// @throws InputError if it cannot be read
+std::string program_identity(const std::filesystem::path& program);
 
 Provenance make_provenance(const Scenario& scenario, int threads);
 

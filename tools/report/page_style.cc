@@ -62,7 +62,7 @@ circle.start{fill:var(--card);stroke:var(--ink);stroke-width:2}circle.end{fill:v
 .scroll{overflow-x:auto}.pair+.card,.tiles+.pair{margin-top:14px}
 table{border-collapse:collapse;width:100%;font-size:14px}
 th,td{text-align:left;padding:4px 10px 4px 0;border-bottom:1px solid var(--line);vertical-align:top;overflow-wrap:anywhere}
-th{color:var(--soft);font-weight:500;white-space:nowrap}td.number,th.number{text-align:right;font-variant-numeric:tabular-nums}
+th{color:var(--soft);font-weight:500;white-space:nowrap}td.number,th.number{text-align:right;font-variant-numeric:tabular-nums}td.number{white-space:nowrap}
 .columns{columns:2;column-gap:36px}.columns tr{break-inside:avoid}
 pre{overflow-x:auto;font-size:13px;margin:8px 0 0}
 details{margin-top:10px}summary{cursor:pointer}

@@ -18,7 +18,7 @@ std::string title_block(const Regression& regression) {
 std::string tiles(const Regression& regression) {
   std::string html = "<div class=\"tiles\">";
   for (const Change& change : regression.comparison.changes) {
-    if (!change.scenario.empty()) continue;
+    if (!change.scenario.empty() || change.pairs == 0) continue;
     const std::string sign = change.percent.value > 0.0 ? "+" : "";
     html += tile(change.figure->title, sign + readable_text(change.percent.value),
                  "% to " + readable_text(change.after) + " " + change.figure->unit);

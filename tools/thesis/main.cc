@@ -2,14 +2,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include "scenarios/config_reader.h"
-#include "scenarios/digest.h"
 #include "scenarios/input_error.h"
 #include "tools/exit_code.h"
 #include "tools/formats/number_text.h"
@@ -107,13 +104,6 @@ void list_rows(const std::vector<ThesisRow>& rows, const ThesisRuns& runs, const
               << (result->judgement.ours.empty() ? "" : result->judgement.ours + "; ") << result->judgement.note
               << "\n";
   }
-}
-
-/// The version and what the program's file really is: it may have been built from what is in no commit.
-std::string program_identity(const fs::path& program) {
-  std::ifstream file(program, std::ios::binary);
-  if (!file) throw InputError(program.string() + ": cannot be read, expected the program plumbline");
-  return program_version() + " " + digest_of(std::string{std::istreambuf_iterator<char>(file), {}}).substr(0, 8);
 }
 
 ExitCode run(const Arguments& arguments) {
