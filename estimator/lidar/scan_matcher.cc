@@ -56,17 +56,56 @@ struct LineMatch {
   int laser;
 };
 
-double reach_of(const FeaturePoint& feature, double resolution_factor) {
-  const double range_m = feature.position.cast<double>().norm();
-  return resolution_factor * std::clamp(kReachPerRange * range_m, kLeastReach_m, kLargestReach_m);
+/// Finds what features lie on in the map.
+struct MapSearch {
+  const VoxelMap& edges;
+  const VoxelMap& planes;
+  const VoxelMap& clutter;
+  const FitLimits& edge_limits;
+  const FitLimits& plane_limits;
+  double resolution_factor;
+
+  double reach_of(const FeaturePoint& feature) const {
+    const double range_m = feature.position.cast<double>().norm();
+    return resolution_factor * std::clamp(kReachPerRange * range_m, kLeastReach_m, kLargestReach_m);
+  }
+
+  std::optional<MapPlane> plane_of(const FeaturePoint& feature, const Pose& world_from_body) const {
+    const Eigen::Vector3d at = world_from_body * feature.position.cast<double>();
+    const Eigen::Vector3d normal = world_from_body.rotation * feature.normal.cast<double>();
+    const double reach_m = reach_of(feature);
+    NearestSamples nearest(kPlaneNeighbours, reach_m, normal.cast<float>());
+    planes.nearest(at, reach_m, nearest);
+    return fit_plane(nearest, plane_limits, at);
+  }
+
+  std::optional<MapLine> edge_of(const FeaturePoint& feature, const Pose& world_from_body) const {
+    const double reach_m = reach_of(feature);
+    NearestSamples nearest(kLineNeighbours, reach_m, Eigen::Vector3f::Zero());
+    edges.nearest(world_from_body * feature.position.cast<double>(), reach_m, nearest);
+    return fit_line(nearest, edge_limits);
+  }
+
+  std::optional<MapLine> clutter_of(const FeaturePoint& feature, const Pose& world_from_body) const {
+    const double reach_m = resolution_factor * kClutterReach_m;
+    NearestSamples nearest(kClutterNeighbours, reach_m, Eigen::Vector3f::Zero());
+    clutter.nearest(world_from_body * feature.position.cast<double>(), reach_m, nearest);
+    return line_through_clutter(nearest, world_from_body.rotation * feature.normal.cast<double>());
+  }
+};
+
+double edge_sigma_m(const FeaturePoint& feature, double sigma_m) {
+  return std::hypot(sigma_m, static_cast<double>(feature.spread_m));
 }
 
 int coarser(int budget, double resolution_factor) { return static_cast<int>(std::lround(budget / resolution_factor)); }
 
-std::vector<Eigen::Vector3d> in_world(const std::vector<FeaturePoint>& features, const Pose& world_from_body) {
+/// @param pose_of  a feature's world_from_body
+template <typename PoseOf>
+std::vector<Eigen::Vector3d> in_world(const std::vector<FeaturePoint>& features, PoseOf pose_of) {
   std::vector<Eigen::Vector3d> points;
   points.reserve(features.size());
-  for (const FeaturePoint& f : features) points.push_back(world_from_body * f.position.cast<double>());
+  for (const FeaturePoint& f : features) points.push_back(pose_of(f) * f.position.cast<double>());
   return points;
 }
 
@@ -97,6 +136,16 @@ struct ScanMatcher::Impl {
     plane_limits.largest_disagreement = settings.largest_plane_disagreement;
   }
 
+  /// For searches near these features. @param pose_of  a feature's world_from_body
+  template <typename PoseOf>
+  void prepare(const FeatureCloud& features, PoseOf pose_of) {
+    edges.prepare(in_world(features.edges, pose_of));
+    planes.prepare(in_world(features.planes, pose_of));
+    clutter.prepare(in_world(features.clutter, pose_of));
+  }
+
+  MapSearch search() const { return {edges, planes, clutter, edge_limits, plane_limits, config.resolution_factor}; }
+
   static VoxelMap coarser_map(const ScanMatcherConfig& settings, double resolution_m) {
     return {settings.resolution_factor * settings.coarse_voxel_m, settings.resolution_factor * resolution_m};
   }
@@ -124,19 +173,13 @@ namespace {
 /// The linearizer of one match: finds correspondences at a pose and stacks their rows (thesis 5.13-5.15).
 class MapConstraints {
  public:
-  MapConstraints(const VoxelMap& edges, const VoxelMap& planes, const VoxelMap& clutter, const FitLimits& edge_limits,
-                 const FitLimits& plane_limits, double sigma_m, double bias_sigma_m, const RangeBiases& biases,
-                 const Eigen::Vector3d& lidar_in_body, double resolution_factor, const FeatureCloud& features)
-      : edges_(edges),
-        planes_(planes),
-        clutter_(clutter),
-        edge_limits_(edge_limits),
-        plane_limits_(plane_limits),
+  MapConstraints(const MapSearch& map, double sigma_m, double bias_sigma_m, const RangeBiases& biases,
+                 const Eigen::Vector3d& lidar_in_body, const FeatureCloud& features)
+      : map_(map),
         sigma_m_(sigma_m),
         bias_sigma_m_(bias_sigma_m),
         biases_(biases),
         lidar_in_body_(lidar_in_body),
-        resolution_factor_(resolution_factor),
         features_(features) {
     plane_matches_.reserve(features.planes.size());
     line_matches_.reserve(features.edges.size() + features.clutter.size());
@@ -247,50 +290,32 @@ class MapConstraints {
     plane_matches_.clear();
     line_matches_.clear();
     for (const FeaturePoint& f : features_.planes) match_plane(f, world_from_body);
-    for (const FeaturePoint& f : features_.edges) match_line(f, world_from_body);
-    for (const FeaturePoint& f : features_.clutter) match_clutter(f, world_from_body);
+    for (const FeaturePoint& f : features_.edges) {
+      match_line(f, map_.edge_of(f, world_from_body), edge_sigma_m(f, sigma_m_));
+    }
+    for (const FeaturePoint& f : features_.clutter) {
+      match_line(f, map_.clutter_of(f, world_from_body), kClutterSigma_m);
+    }
   }
 
   void match_plane(const FeaturePoint& feature, const Pose& world_from_body) {
+    const auto plane = map_.plane_of(feature, world_from_body);
+    if (!plane) return;
     const Eigen::Vector3d point = feature.position.cast<double>();
-    const Eigen::Vector3d normal = world_from_body.rotation * feature.normal.cast<double>();
-    const double reach_m = reach_of(feature, resolution_factor_);
-    NearestSamples nearest(kPlaneNeighbours, reach_m, normal.cast<float>());
-    planes_.nearest(world_from_body * point, reach_m, nearest);
-    const auto plane = fit_plane(nearest, plane_limits_, world_from_body * point);
-    if (plane) plane_matches_.push_back({point, beam_to(point), *plane, feature.laser});
+    plane_matches_.push_back({point, beam_to(point), *plane, feature.laser});
   }
 
-  void match_line(const FeaturePoint& feature, const Pose& world_from_body) {
-    const Eigen::Vector3d point = feature.position.cast<double>();
-    const double reach_m = reach_of(feature, resolution_factor_);
-    NearestSamples nearest(kLineNeighbours, reach_m, Eigen::Vector3f::Zero());
-    edges_.nearest(world_from_body * point, reach_m, nearest);
-    const auto line = fit_line(nearest, edge_limits_);
+  void match_line(const FeaturePoint& feature, const std::optional<MapLine>& line, double sigma_m) {
     if (!line) return;
-    const double sigma_m = std::hypot(sigma_m_, static_cast<double>(feature.spread_m));
+    const Eigen::Vector3d point = feature.position.cast<double>();
     line_matches_.push_back({point, beam_to(point), *line, sigma_m, feature.laser});
   }
 
-  void match_clutter(const FeaturePoint& feature, const Pose& world_from_body) {
-    const Eigen::Vector3d point = feature.position.cast<double>();
-    const double reach_m = resolution_factor_ * kClutterReach_m;
-    NearestSamples nearest(kClutterNeighbours, reach_m, Eigen::Vector3f::Zero());
-    clutter_.nearest(world_from_body * point, reach_m, nearest);
-    const auto line = line_through_clutter(nearest, world_from_body.rotation * feature.normal.cast<double>());
-    if (line) line_matches_.push_back({point, beam_to(point), *line, kClutterSigma_m, feature.laser});
-  }
-
-  const VoxelMap& edges_;
-  const VoxelMap& planes_;
-  const VoxelMap& clutter_;
-  const FitLimits& edge_limits_;
-  const FitLimits& plane_limits_;
+  MapSearch map_;
   double sigma_m_;
   double bias_sigma_m_;
   const RangeBiases& biases_;
   Eigen::Vector3d lidar_in_body_;
-  double resolution_factor_;
   const FeatureCloud& features_;
   bool searched_ = false;
   Pose searched_at_;
@@ -314,11 +339,8 @@ SolveResult ScanMatcher::match(const FeatureCloud& features, const PosePrior& wo
   const FeatureCloud used = {every_nth(features.edges, coarser(m.config.edge_budget, factor)),
                              pick(features.planes, sample_by_direction(features.planes, plane_budget)),
                              every_nth(features.clutter, coarser(m.config.clutter_budget, factor))};
-  m.edges.prepare(in_world(used.edges, world_from_body.mean));
-  m.planes.prepare(in_world(used.planes, world_from_body.mean));
-  m.clutter.prepare(in_world(used.clutter, world_from_body.mean));
-  MapConstraints constraints(m.edges, m.planes, m.clutter, m.edge_limits, m.plane_limits, m.sigma_m, m.bias_sigma_m,
-                             m.biases, m.body_from_lidar.translation, factor, used);
+  m.prepare(used, [&](const FeaturePoint&) { return world_from_body.mean; });
+  MapConstraints constraints(m.search(), m.sigma_m, m.bias_sigma_m, m.biases, m.body_from_lidar.translation, used);
   m.rows.clear();
   std::size_t planes = 0;
   SolveResult solved = solve(
@@ -339,6 +361,35 @@ SolveResult ScanMatcher::match(const FeatureCloud& features, const PosePrior& wo
   m.drift = constraints.drift(solved);
   m.matched_biases = solved.shared;
   return solved;
+}
+
+void ScanMatcher::constrain(const FeatureCloud& features, const std::function<Pose(double offset_s)>& world_from_body,
+                            ResidualRows& rows, std::vector<double>& measured_s) {
+  Impl& m = *impl_;
+  const auto pose_of = [&](const FeaturePoint& f) { return world_from_body(static_cast<double>(f.offset_s)); };
+  m.prepare(features, pose_of);
+  const MapSearch search = m.search();
+  for (const FeaturePoint& f : features.planes) {
+    const Pose pose = pose_of(f);
+    const auto plane = search.plane_of(f, pose);
+    if (!plane) continue;
+    add_plane_row(f.position.cast<double>(), *plane, pose, m.sigma_m, rows);
+    measured_s.push_back(static_cast<double>(f.offset_s));
+  }
+  const auto add_line = [&](const FeaturePoint& f, const std::optional<MapLine>& line, const Pose& pose,
+                            double sigma_m) {
+    if (!line) return;
+    add_line_rows(f.position.cast<double>(), *line, pose, sigma_m, rows);
+    measured_s.push_back(static_cast<double>(f.offset_s));
+  };
+  for (const FeaturePoint& f : features.edges) {
+    const Pose pose = pose_of(f);
+    add_line(f, search.edge_of(f, pose), pose, edge_sigma_m(f, m.sigma_m));
+  }
+  for (const FeaturePoint& f : features.clutter) {
+    const Pose pose = pose_of(f);
+    add_line(f, search.clutter_of(f, pose), pose, kClutterSigma_m);
+  }
 }
 
 void ScanMatcher::learn_range_biases(double step_m) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -68,6 +69,13 @@ class ScanMatcher {
   /// @param further_rows  of other sensors that take part in the same problem, after the scan's own; empty: none
   SolveResult match(const FeatureCloud& features_in_body, const PosePrior& world_from_body,
                     const Linearizer& further_rows = {});
+
+  /// Stacks the rows of features that were each measured at a pose of their own: for the motion within a sweep.
+  /// @param features_in_body  each in B when it was measured
+  /// @param world_from_body   by a feature's offset_s
+  /// @param measured_s        the offset_s of each feature that rows were stacked for is appended
+  void constrain(const FeatureCloud& features_in_body, const std::function<Pose(double offset_s)>& world_from_body,
+                 ResidualRows& rows, std::vector<double>& measured_s);
 
   /// The rows of the last match as they were at its guess, with their robust weights: what detectors of degeneracy see.
   const std::vector<MatchRow>& rows() const;

@@ -30,7 +30,6 @@ constexpr double kLineReachPerRange = 0.1;
 constexpr double kLargestDoubt_m = 4.0;
 constexpr double kCoarseDoubt_m = 0.1;
 constexpr double kClearlyMore = 1.2;
-constexpr double kUnitNoiseMad = 0.6745;
 
 double reach_of(const FeaturePoint& feature, double doubt_m) {
   const double range = feature.position.cast<double>().norm();

@@ -25,6 +25,7 @@ constexpr int kMatchedClutter = 2500;  // a sweep of a second sees more of it
 // Where the lidar alone tells the pose, odometry may be wrong by this much when it comes to matching with the map.
 constexpr double kOdometrySigma_m = 0.1;
 constexpr double kOdometrySigma_rad = 0.02;
+constexpr double kBentDoubt = 2.0;               // times as wrong, where the sweep was bent
 constexpr double kReadAttitudeSigma_rad = 1e-6;  // attitude that is read is beyond correction
 
 MessageUse use_of(const Calibration& calibration, ImuUse imu) {
@@ -53,7 +54,8 @@ Loam::Loam(const Calibration& calibration, const EstimatorConfig& config, ImuUse
       gate_(use_of(calibration, imu)),
       initializer_(calibration),
       odometry_(calibration, weak_directions(config.remapping)),
-      matcher_(calibration, scan_matcher_config(config), weak_directions(config.remapping)) {}
+      matcher_(calibration, scan_matcher_config(config), weak_directions(config.remapping)),
+      bends_(imu == ImuUse::kNone) {}
 
 void Loam::add(const ImuSample& received) {
   const std::optional<ImuSample> admitted = gate_.admit(received);
@@ -170,12 +172,17 @@ void Loam::finish(const Sweep& sweep) {
   FeatureCloud features = sweep.in_parts
                               ? features_of(sweep.scan, corrected_track(), sweep.end_ns)
                               : odometry_.corrected(sweep.end_ns, predicted_motion(sweep.end_ns), motion_.pose);
-  const Pose middle_from_end =
-      corrected(track_.at(middle_ns), middle_ns).inverse() * corrected(track_.at(sweep.end_ns), sweep.end_ns);
+  PoseTrack within = corrected_track();
   carry_covariance(sweep.end_ns, motion_.information / kSweepInflation);
   take_motion(sweep.end_ns);
   match(features, sweep.end_ns);
-  begin_sweep(std::move(features), middle_ns, sweep.end_ns, middle_from_end);
+  const bool slow = seconds_between(sweep.scan.stamp_ns, sweep.end_ns) > SweepBends::kLeastSweep_s;
+  if (slow && sweep.in_parts && steady_ && mapping_) {
+    within = bent(sweep, features, within);
+    features = features_of(sweep.scan, within, sweep.end_ns);
+  }
+  lay_down(features, sweep.end_ns);
+  begin_sweep(std::move(features), middle_ns, sweep.end_ns, within.at(middle_ns).inverse() * within.at(sweep.end_ns));
 }
 
 /// The first sweep was taken up before any motion was known. Now some is: what it is told by the second sweep.
@@ -205,13 +212,25 @@ void Loam::redo_first_sweep() {
 }
 
 void Loam::match(const FeatureCloud& features, std::int64_t stamp_ns) {
+  if (!mapping_) return;
   const Pose predicted = track_.at(stamp_ns);
-  SolveResult solved;
-  if (mapping_) {
-    solved = matcher_.match(features, {predicted, match_prior()});
-    take_pose(solved, predicted);
-    health_.push_back(health_of(stamp_ns, Module::kLidar, solved, predicted, 0.0));
-  }
+  matched_ = matcher_.match(features, {predicted, match_prior()});
+  take_pose(matched_, predicted);
+  health_.push_back(health_of(stamp_ns, Module::kLidar, matched_, predicted, 0.0));
+}
+
+/// The whole sweep was matched as if its motion were steady. Nothing else told how it was: an IMU would have.
+PoseTrack Loam::bent(const Sweep& sweep, const FeatureCloud& features, const PoseTrack& steady) {
+  const Pose matched = track_.at(sweep.end_ns);
+  const PosePrior end{matched, kBentDoubt * kBentDoubt * match_prior()};
+  PoseTrack track = bends_.bent(steady, features, sweep.scan.stamp_ns, sweep.end_ns, end, matcher_);
+  const Pose shift = track.at(sweep.end_ns) * matched.inverse();
+  steady_->move(shift * state().world_from_body);
+  track_.premultiply(shift);
+  return track;
+}
+
+void Loam::lay_down(const FeatureCloud& features, std::int64_t stamp_ns) {
   const Pose world_from_body = track_.at(stamp_ns);
   const Eigen::Vector3d step_in_body =
       world_from_body.rotation.conjugate() * (world_from_body.translation - last_position_);
@@ -219,7 +238,7 @@ void Loam::match(const FeatureCloud& features, std::int64_t stamp_ns) {
   last_position_ = world_from_body.translation;
   matcher_.insert(features, world_from_body, path_m_);
   matcher_.learn_range_biases(step_in_body.norm());
-  if (steady_ && mapping_) covariance_.match(solved, matcher_.drift(), step_in_body);
+  if (steady_ && mapping_) covariance_.match(matched_, matcher_.drift(), step_in_body);
 }
 
 /// From the last sweep's end on, over which steady motion foresees what odometry does not tell.

@@ -11,6 +11,7 @@
 #include "estimator/lidar/scan_matcher.h"
 #include "estimator/lidar/steady_motion.h"
 #include "estimator/lidar/sweep_assembler.h"
+#include "estimator/lidar/sweep_bends.h"
 #include "estimator/lidar/sweep_odometry.h"
 #include "estimator/pipeline/increment_watch.h"
 #include "estimator/pipeline/lost_watch.h"
@@ -58,6 +59,8 @@ class Loam final : public Estimator {
   void finish(const Sweep& sweep);
   void redo_first_sweep();
   void match(const FeatureCloud& features, std::int64_t stamp_ns);
+  void lay_down(const FeatureCloud& features, std::int64_t stamp_ns);
+  PoseTrack bent(const Sweep& sweep, const FeatureCloud& features, const PoseTrack& steady);
   void carry_covariance(std::int64_t end_ns, const Matrix6d& odometry_information);
   void take_motion(std::int64_t now_ns);
   void take_pose(const SolveResult& solved, const Pose& predicted);
@@ -87,6 +90,7 @@ class Loam final : public Estimator {
   SweepAssembler assembler_;
   SweepOdometry odometry_;
   ScanMatcher matcher_;
+  SweepBends bends_;
 
   ImuSample last_sample_;
   PoseTrack track_;  ///< world_from_body as predicted since the last sweep's end, and a while before
@@ -95,6 +99,7 @@ class Loam final : public Estimator {
   std::int64_t last_end_ns_ = 0;         ///< of the sweep before
   Pose reference_from_last_end_;         ///< the reference is B in the middle of the sweep before
   std::int64_t followed_ns_ = 0;         ///< up to where odometry has followed the growing sweep
+  SolveResult matched_;                  ///< of the last sweep with the map
   SolveResult motion_;                   ///< its solution there, reference_from_body
   MatchedCovariance covariance_;         ///< without a filter
   std::int64_t start_ns_ = 0;

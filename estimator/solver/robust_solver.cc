@@ -306,6 +306,12 @@ class RobustSolve {
 
 }  // namespace
 
+std::vector<double> robust_weights(const ResidualRows& rows, double scale_floor) {
+  std::vector<double> weights;
+  bisquare_weights(rows, robust_scale(rows, scale_floor, weights), weights);
+  return weights;
+}
+
 SolveResult solve(const Pose& guess, const std::optional<PosePrior>& prior, const Linearizer& linearize,
                   const SolverOptions& options) {
   return RobustSolve(guess, prior, linearize, options).run();

@@ -52,11 +52,17 @@ class ResidualRows {
 /// Fills `rows` (already cleared) at a pose. The same features must come in the same order for the same pose.
 using Linearizer = std::function<void(const Pose& pose, ResidualRows& rows)>;
 
+/// A bisquare weight for each feature of rows that are stacked already, for problems of more than one pose.
+/// @param scale_floor  as SolverOptions has it
+std::vector<double> robust_weights(const ResidualRows& rows, double scale_floor);
+
 /// A guess with its uncertainty: covariance of a right perturbation of `mean`.
 struct PosePrior {
   Pose mean;
   Matrix6d covariance = Matrix6d::Identity();
 };
+
+inline constexpr double kUnitNoiseMad = 0.6745;  ///< of Gaussian noise of unit variance
 
 struct SolverOptions {
   int max_iterations = 10;
@@ -64,9 +70,9 @@ struct SolverOptions {
   double translation_tolerance = 1e-5;             ///< [m]
   double degeneracy_threshold = 0.0;               ///< on the eigenvalues of the whitened J^T J
   WeakDirections weak = WeakDirections::kGuessed;  ///< otherwise no projector, and no prior of the caller's
-  double scale_floor = 0.6745;    ///< least MAD of the whitened residuals; 0.6745 is that of unit noise
-  int min_features = 6;           ///< fewer: nothing is well-conditioned
-  double min_inlier_share = 0.3;  ///< fewer: nothing is well-conditioned
+  double scale_floor = kUnitNoiseMad;              ///< least MAD of the whitened residuals
+  int min_features = 6;                            ///< fewer: nothing is well-conditioned
+  double min_inlier_share = 0.3;                   ///< fewer: nothing is well-conditioned
 };
 
 /// What a solution says of the number that a group of features shares, see ResidualRows::share().

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <string>
 
 #include "estimator/estimator.h"
@@ -89,6 +90,29 @@ TEST(Loam, FollowsATurnedScannerWithoutAnImu) {
   EXPECT_LT(error.tail<3>().norm(), 0.03);
   EXPECT_LT(error.head<3>().norm(), 0.01);
   EXPECT_EQ(run.estimator().counts(Module::kLidar).used, 60);
+}
+
+/// Bobs and nods as it walks, twice in five sweeps: at the end of a sweep that is taken for steady all of it is wrong.
+TEST(Loam, FollowsMotionThatBendsWithinItsSweeps) {
+  const testing::BoxWorld room = testing::furnished_room();
+  const Motion motion = [](double t) {
+    const double set_out = std::clamp(t - 2.0, 0.0, 1.0);
+    const double phase = 0.8 * std::numbers::pi * (t - 2.0);
+    return Pose{exp_so3({0.0, 0.07 * set_out * std::sin(phase), 0.05 * std::max(0.0, t - 2.0)}),
+                {0.2 * std::max(0.0, t - 2.0) - 2.0, 0.0, 0.3 + 0.12 * set_out * std::sin(phase)}};
+  };
+  LoamRun run(calibration_of(40, 1.0));
+  run.follow(room, motion, 15, 4);
+  double square_m2 = 0.0;
+  double square_rad2 = 0.0;
+  for (std::int64_t k = 6; k < 15; ++k) {
+    const Vector6d error = run.error(motion, k * 1'000'000'000 + kClock_ns, (k + 1) * 1'000'000'000 + kClock_ns);
+    square_rad2 += error.head<3>().squaredNorm() / 9.0;
+    square_m2 += error.tail<3>().squaredNorm() / 9.0;
+  }
+  // Of each second's motion: 8 cm and 2.4 degrees; with sweeps taken for steady 21 cm and 8.3 degrees.
+  EXPECT_LT(std::sqrt(square_m2), 0.13);
+  EXPECT_LT(std::sqrt(square_rad2), 0.075);
 }
 
 /// From rest without an IMU, where nothing but leaves shows the motion: it was missed at first, and then for good.
